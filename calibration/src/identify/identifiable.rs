@@ -236,13 +236,13 @@ impl Columns {
         };
         let observability =
             Observability::from_singular_values(&singular_values(basis).unwrap_or_default(), rows);
-        let weak = self.weak(&kept);
-        let inexact = self.inexact(&kept);
+        let mut rest = self.unit.clone();
+        kept.iter().for_each(|k| take_out(&mut rest, *k));
         Identifiable {
             rank: kept.len(),
             errors,
-            weak,
-            inexact,
+            inexact: inexact(&rest).collect(),
+            weak: self.weak(kept.len(), rest),
             kept,
             redundant,
             singular_values: self.singular_values,
@@ -251,23 +251,13 @@ impl Columns {
         }
     }
 
-    /// Returns the columns that are not exact combinations of the kept ones.
-    fn inexact(&self, kept: &[usize]) -> Vec<usize> {
-        let mut rest = self.unit.clone();
-        kept.iter().for_each(|k| take_out(&mut rest, *k));
-        (0..rest.ncols()).filter(|k| rest.column(*k).norm() > INDISTINGUISHABLE).collect()
-    }
-
     /// Returns the columns independent of the kept ones, one for each combination, the best
-    /// determined first.
-    fn weak(&self, kept: &[usize]) -> Vec<Weak> {
-        let mut rest = self.unit.clone();
-        kept.iter().for_each(|k| take_out(&mut rest, *k));
+    /// determined first. `rest` are the columns without their parts along the kept ones.
+    fn weak(&self, kept: usize, mut rest: DMatrix<f64>) -> Vec<Weak> {
         let mut weak = Vec::new();
-        while kept.len() + weak.len() < self.exact {
+        while kept + weak.len() < self.exact {
             let strength = |k: &usize| rest.column(*k).norm() * self.worth[*k];
-            let free = (0..rest.ncols()).filter(|k| rest.column(*k).norm() > INDISTINGUISHABLE);
-            let Some(k) = free.max_by(|a, b| strength(a).total_cmp(&strength(b))) else { break };
+            let Some(k) = inexact(&rest).max_by(|a, b| strength(a).total_cmp(&strength(b))) else { break };
             let deviation = self.expected[k].unwrap_or(f64::INFINITY) / strength(&k).max(f64::MIN_POSITIVE);
             weak.push(Weak { unknown: k, deviation, expected: self.expected[k].unwrap_or(f64::INFINITY) });
             take_out(&mut rest, k);
@@ -290,6 +280,11 @@ impl Columns {
         let shares = kept.iter().zip(solution.iter()).filter(|(_, share)| share.abs() > INDISTINGUISHABLE);
         shares.map(|(j, share)| (*j, share * self.lengths[k] / self.lengths[*j])).collect()
     }
+}
+
+/// Returns the columns that are not exact combinations of those taken out of `rest`.
+fn inexact(rest: &DMatrix<f64>) -> impl Iterator<Item = usize> {
+    (0..rest.ncols()).filter(|k| rest.column(*k).norm() > INDISTINGUISHABLE)
 }
 
 /// Projects all columns onto the complement of column `k`.

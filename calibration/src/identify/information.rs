@@ -280,9 +280,7 @@ fn whiten(
     let rows = scaled.nrows();
     match &observation.measured {
         // All corners that a camera sees share the error of the model.
-        Measurement::Readings(_) if model.camera.is_some() => {
-            without_common(scaled, 2, b);
-        }
+        Measurement::Readings(_) if model.camera.is_some() => without_common(scaled, 2, b),
         // For an angle, the length divided by the arm.
         Measurement::Readings(values) => {
             let shown = model.observables.iter().zip(values).filter(|(_, value)| value.is_some());
@@ -291,9 +289,7 @@ fn whiten(
                 scaled.row_mut(i).scale_mut(1.0 / (1.0 + share(sigma)).sqrt());
             }
         }
-        Measurement::Points(_) => {
-            without_common(scaled, 3, b);
-        }
+        Measurement::Points(_) => without_common(scaled, 3, b),
         Measurement::Pose(_) => {
             let turn = share(arm * model.uncertainty.angle);
             for i in 0..rows {

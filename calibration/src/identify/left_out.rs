@@ -173,15 +173,21 @@ impl LeftOut {
             }
             fold.z.push(z);
         }
-        let mut new = self.columns.column(k).into_owned();
-        // Two passes suffice for orthogonality.
-        for _ in 0..2 {
-            self.basis.iter().for_each(|one| new.axpy(-one.dot(&new), one, 1.0));
-        }
+        let new = self.beside_included(k);
         let length = new.norm();
         if length * length > NEW {
             self.basis.push(new / length);
         }
+    }
+
+    /// Returns column k projected onto the complement of the included columns.
+    fn beside_included(&self, k: usize) -> DVector<f64> {
+        let mut column = self.columns.column(k).into_owned();
+        // Two passes suffice for orthogonality.
+        for _ in 0..2 {
+            self.basis.iter().for_each(|one| column.axpy(-one.dot(&column), one, 1.0));
+        }
+        column
     }
 
     /// Returns the inner products of column k with all columns, over a range of rows.
@@ -199,14 +205,9 @@ impl LeftOut {
     /// Returns the group with the smallest sum of squares if it is included, and that sum.
     pub(super) fn best(&self) -> Option<(usize, f64)> {
         let free = (0..self.groups.len()).filter(|group| self.free[*group]);
-        let left = free.filter_map(|group| Some((group, self.squares_with(group)? * self.size * self.size)));
+        let left = free
+            .filter_map(|group| Some((group, self.rest_with(group)?.norm_squared() * self.size * self.size)));
         left.min_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
-    /// Returns the sum of squares with a group included; none if the group depends on the included
-    /// columns in some fold.
-    fn squares_with(&self, group: usize) -> Option<f64> {
-        Some(self.rest_with(group)?.norm_squared())
     }
 
     /// Returns the residuals of all folds under the fits of the others with a group included; none
@@ -233,20 +234,13 @@ impl LeftOut {
     /// fold under the fits of the others with the group. Columns are projected onto the complement
     /// of the included ones.
     pub(super) fn scores(&self, group: usize) -> Scores {
-        let free_of = |k: usize| {
-            let mut column = self.columns.column(k).into_owned();
-            for _ in 0..2 {
-                self.basis.iter().for_each(|one| column.axpy(-one.dot(&column), one, 1.0));
-            }
-            column
-        };
-        let before = free_of(self.columns.ncols() - 1);
+        let before = self.beside_included(self.columns.ncols() - 1);
         let after = self.rest_with(group).unwrap_or_else(|| before.clone());
         let columns = &self.groups[group];
         let zero = DMatrix::zeros(self.configurations, columns.len());
         let mut scores = Scores { before: zero.clone(), after: zero };
         for (place, k) in columns.clone().enumerate() {
-            for (i, value) in free_of(k).iter().enumerate() {
+            for (i, value) in self.beside_included(k).iter().enumerate() {
                 let at = (self.configuration[i], place);
                 scores.before[at] += value * before[i];
                 scores.after[at] += value * after[i];

@@ -269,9 +269,7 @@ impl<'a> Model<'a> {
                     _ => format!("target{}_{axis}{at}", target % count + 1),
                 }
             }
-            Unknown::Tool(placement, component) => {
-                format!("tool_{}{}", component.name(), at(placement))
-            }
+            Unknown::Tool(placement, component) => format!("tool_{}{}", component.name(), at(placement)),
             Unknown::Fixture(fixture, coordinate) => {
                 let Fixture { name, geometry } = &self.fixtures[fixture];
                 let coordinates = match geometry {
