@@ -1,5 +1,6 @@
 //! Identified placement of the machine and of what is mounted on its tool.
 
+use abbe::analysis::sampling::norm;
 use abbe::identify::{Fit, FixtureGeometry, INTRINSICS, Model, Observation, Station, Unknown};
 use abbe::{Component, Pose};
 use serde::Serialize;
@@ -177,6 +178,5 @@ impl FoundPlacement {
 }
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
-    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    v.map(|x| x / length)
+    v.map(|x| x / norm(v))
 }

@@ -1,5 +1,6 @@
 //! Evaluates interpretations and their residuals.
 
+use abbe::analysis::sampling::norm;
 use abbe::{Error, Pose, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -322,11 +323,7 @@ fn can_be_fitted(predicted: &[Pose], seen: &[Pose], oriented: bool, tool: bool, 
     let [mut turns, mut distances] = [0.0; 2];
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let trace = |a: &Pose, b: &Pose| dot(a.0[0], b.0[0]) + dot(a.0[1], b.0[1]) + dot(a.0[2], b.0[2]);
-    let distance = |a: &Pose, b: &Pose| {
-        let [a, b] = [a.0[3], b.0[3]];
-        let off = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-        dot(off, off).sqrt()
-    };
+    let distance = |a: &Pose, b: &Pose| norm(std::array::from_fn(|i| a.0[3][i] - b.0[3][i]));
     for i in 1..seen.len() {
         let (a, b) = ([&predicted[i - 1], &predicted[i]], [&seen[i - 1], &seen[i]]);
         if oriented {

@@ -2,6 +2,7 @@
 
 use abbe::Class;
 use abbe::identify::{Chance, Failure, Figures, Observation, Unknown, simulate};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::errors::{Errors, at_single_target, pose};
@@ -161,14 +162,10 @@ impl<'a> PredictionRegion<'a> {
 /// Computes `√(eᵀ C⁻¹ e)`: with the rows a, b, c of C, `det C = a · b × c`, and `C⁻¹` has the
 /// columns b × c, c × a, a × b divided by it.
 fn mahalanobis([a, b, c]: [[f64; 3]; 3], error: [f64; 3]) -> f64 {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let columns = [cross(b, c), cross(c, a), cross(a, b)];
-    let square = (0..3).map(|i| error[i] * dot(columns[i], error)).sum::<f64>() / dot(a, columns[0]);
+    let [a, b, c, error] = [a, b, c, error].map(Vector3::from);
+    let columns = [b.cross(&c), c.cross(&a), a.cross(&b)];
+    let square = (0..3).map(|i| error[i] * columns[i].dot(&error)).sum::<f64>() / a.dot(&columns[0]);
     square.max(0.0).sqrt()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Returns the 0.5 and 99.5 % quantiles of the share, from the binomial distribution.

@@ -20,13 +20,14 @@ mod numbers;
 mod places;
 mod report;
 
+use abbe::analysis::sampling::norm;
 use abbe::identify::{Failure, Measurement, Model, Observation};
 use abbe_spec::Spec;
 
 use crate::identify::{Setup, target_on_axis};
 use abbe_study::calibration::tool_in_last_frame;
 use numbers::{Basis, MachineNumbers, Posterior};
-use places::{Mounting, displacements, farthest, is_in_tool, length};
+use places::{Mounting, displacements, farthest, is_in_tool};
 
 pub use report::{HiddenNumber, TargetMounting};
 
@@ -126,7 +127,7 @@ impl Assessed<'_> {
             target_on_axis: target_on_axis(self.setup, rows)?,
             numbers: place.named.iter().map(number).collect(),
             position: std::array::from_fn(|i| mounting.planned[i] + place.by[i]),
-            distance: length(place.by),
+            distance: norm(place.by),
             is_additional: mounting.is_additional,
             planned_targets: model.targets.len(),
             is_exact: !model.unknowns.iter().any(|unknown| unknown.is_tool()),

@@ -5,6 +5,7 @@
 //! coordinates of a target, and ten values determine it for all places.
 
 use abbe::LengthUnit;
+use abbe::analysis::sampling::norm;
 use abbe::identify::{Failure, Measurement, Model, Observation, Unknown};
 use nalgebra::DMatrix;
 
@@ -137,9 +138,9 @@ pub(super) fn displacements(farthest: f64, unit: LengthUnit) -> Vec<[f64; 3]> {
     let signs = || [0.0, 1.0, -1.0].into_iter();
     let directions = || signs().flat_map(move |z| signs().flat_map(move |y| signs().map(move |x| [x, y, z])));
     let all = sizes.flat_map(|size| directions().map(move |direction| direction.map(|x| x * size)));
-    let is_near = |by: &[f64; 3]| (NEAREST * farthest..=farthest).contains(&length(*by));
+    let is_near = |by: &[f64; 3]| (NEAREST * farthest..=farthest).contains(&norm(*by));
     let mut all: Vec<[f64; 3]> = all.filter(is_near).collect();
-    all.sort_by(|a, b| length(*a).total_cmp(&length(*b)));
+    all.sort_by(|a, b| norm(*a).total_cmp(&norm(*b)));
     all
 }
 
@@ -152,9 +153,5 @@ pub(super) fn is_in_tool(by: [f64; 3], planned: [f64; 3], flange: [f64; 3]) -> b
     let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f64>();
     let square = dot(line, line);
     let along = if square > 0.0 { (dot(by, line) / square).clamp(0.0, 1.0) } else { 0.0 };
-    length(std::array::from_fn(|i| by[i] - along * line[i])) < BESIDE * length(by)
-}
-
-pub(super) fn length(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+    norm(std::array::from_fn(|i| by[i] - along * line[i])) < BESIDE * norm(by)
 }
