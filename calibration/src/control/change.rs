@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::distributions::student_quantile;
+use crate::identify::student_factor;
 
 /// Kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,7 +75,7 @@ impl Change {
         }
         let freedom = n - 3;
         let variance = best.squares / freedom as f64;
-        let bound = best.squares + variance * student_quantile(0.975, freedom).powi(2);
+        let bound = best.squares + variance * student_factor(0.95, freedom as f64).powi(2);
         let within = |fitted: &&Fitted| fitted.squares <= bound;
         let first = all.iter().find(within).map_or(best.at, |fitted| fitted.at);
         let last = all.iter().rev().find(within).map_or(best.at, |fitted| fitted.at);

@@ -14,6 +14,6 @@ mod self_starting;
 mod tests;
 
 pub use change::{Change, Kind};
-pub use distributions::{normal_quantile, student_quantile, student_tails};
+pub use distributions::normal_quantile;
 pub use ewma::{ewma_limit, ewma_run_length};
 pub use self_starting::SelfStarting;

@@ -1,6 +1,7 @@
 //! Self-starting charts: standard normal scores of a series relative to its earlier numbers.
 
-use super::distributions::{normal_quantile, student_tails};
+use super::distributions::normal_quantile;
+use crate::identify::student_beyond;
 
 /// Running mean and variance of a series.
 ///
@@ -25,7 +26,10 @@ impl SelfStarting {
         let standard = match (count, away) {
             (0 | 1, _) | (_, 0.0) => 0.0,
             // Half of the two-sided probability.
-            _ => -normal_quantile(0.5 * student_tails(away / scatter.max(1e-300), count - 1)).copysign(-away),
+            _ => {
+                let beyond = student_beyond(away / scatter.max(1e-300), n - 1.0);
+                -normal_quantile(0.5 * beyond).copysign(-away)
+            }
         };
         let moved = mean + away / (n + 1.0);
         *self = Self { count: count + 1, mean: moved, squares: squares + away * (x - moved) };

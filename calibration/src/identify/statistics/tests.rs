@@ -15,11 +15,14 @@ fn probabilities_are_those_of_the_tables() {
     for square in [3.247f64, 20.483] {
         assert!((deviation_beyond((square / 10.0).sqrt(), 10.0) - 0.05).abs() < 2e-3);
     }
-    // Student's t: 2.228 for 10, 12.706 for 1, 1.984 for 100.
-    for (freedom, t) in [(10.0, 2.2281), (1.0, 12.7062), (100.0, 1.98397)] {
-        assert!((student_beyond(t, freedom) - 0.05).abs() < 1e-5);
-        assert!((student_factor(0.95, freedom) - t).abs() < 1e-3);
+    // Student's t: 2.5 % above.
+    let of_student = [(1, 12.706_205), (2, 4.302_653), (5, 2.570_582), (8, 2.306_004), (30, 2.042_272)];
+    for (freedom, t) in of_student.into_iter().chain([(10, 2.228_139), (100, 1.983_972)]) {
+        let freedom = f64::from(freedom);
+        assert!((student_beyond(t, freedom) - 0.05).abs() < 1e-6, "{freedom}");
+        assert!((student_factor(0.95, freedom) - t).abs() < 1e-5, "{freedom}");
     }
+    assert_eq!(student_beyond(0.0, 7.0), 1.0);
 }
 
 #[test]
