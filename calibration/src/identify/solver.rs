@@ -9,6 +9,7 @@ use super::triangle::Problem;
 use super::{Failure, Loss, Model, Observation, Options};
 
 /// State of a fit.
+#[derive(Clone)]
 pub(super) struct Solver<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) data: &'a [Observation],
@@ -54,19 +55,7 @@ impl<'a> Solver<'a> {
     where
         'a: 'b,
     {
-        Solver {
-            model: self.model,
-            data,
-            priors: self.priors.clone(),
-            bounds: self.bounds.clone(),
-            x: self.x.clone(),
-            weights: vec![1.0; data.len()],
-            data_alone: self.data_alone.clone(),
-            problem: self.problem.clone(),
-            cost: self.cost,
-            linearized: false,
-            steps: 0,
-        }
+        Solver { data, weights: vec![1.0; data.len()], linearized: false, steps: 0, ..self.clone() }
     }
 
     /// Returns the triangle of the data, the problem with priors, and its cost.
