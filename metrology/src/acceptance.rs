@@ -93,9 +93,7 @@ impl Acceptance {
         let met = limits.iter().all(|limit| limit.met);
         (!limits.is_empty()).then_some(AcceptanceVerdict { rows, limits, met })
     }
-}
 
-impl Acceptance {
     /// Formats the limits as [`read`](Self::read) parses them; empty without any.
     pub(crate) fn text(&self, length: LengthUnit) -> String {
         let limits =

@@ -28,9 +28,7 @@ impl Loss {
             }
         }
     }
-}
 
-impl Loss {
     /// Returns the cost of a residual, in scales: its square at full weight. With `n = |r|` and the
     /// weight `w`, its derivative is `2 n w`.
     pub(super) fn cost(self, norm: f64, d: usize) -> f64 {

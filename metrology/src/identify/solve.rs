@@ -123,9 +123,7 @@ impl Solved<'_> {
     pub(super) fn own_magnitude(&self, unknown: usize) -> Option<OwnMagnitude> {
         self.own.get(unknown).copied()
     }
-}
 
-impl Solved<'_> {
     /// Returns the magnitudes fixed at their declared values that act as an unknown, with their
     /// factors: the value of the unknown stands for the sum.
     pub(super) fn held_magnitudes(&self, spec: &Spec, unknown: usize) -> Vec<(String, f64)> {
