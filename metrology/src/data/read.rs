@@ -83,9 +83,8 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         return None;
     }
     root.check_keys(&[&keys::FILE, &keys::FORMS, &keys::STANDS], document);
-    let mut head = root.required("data", document).and_then(|item| document.section(&item))?;
-    head.name = "[data]".to_owned();
-    head.check_keys(&[&keys::DATA], document);
+    let head = root.required("data", document)?;
+    let head = document.table(&head, "[data]", &[&keys::DATA])?;
     let joints = joints(root, document, spec);
     let inputs = inputs(root, document, spec);
     let mut named = |key: &str| match head.get(key) {
@@ -212,15 +211,13 @@ fn turn(section: &Section<'_>, document: &mut Document) -> Option<Turn> {
         return Some(Turn::Matrix(Box::new(columns(section, "matrix", document)?)));
     }
     if let Some(item) = section.get("quaternion") {
-        let section = document.section(&item)?;
-        section.check_keys(&[&keys::QUATERNION], document);
+        let section = document.table(&item, "quaternion", &[&keys::QUATERNION])?;
         let order = section.required("order", document)?;
         let order = document.choice(&order, &QUATERNION_ORDERS);
         return Some(Turn::Quaternion(Box::new(columns(&section, "columns", document)?), order?));
     }
     if let Some(item) = section.get("rotation_vector") {
-        let section = document.section(&item)?;
-        section.check_keys(&[&keys::ROTATION_VECTOR], document);
+        let section = document.table(&item, "rotation_vector", &[&keys::ROTATION_VECTOR])?;
         let factor = unit(&section, document, Dimension::NONE);
         return Some(Turn::RotationVector(Box::new(columns(&section, "columns", document)?), factor?));
     }
@@ -228,8 +225,7 @@ fn turn(section: &Section<'_>, document: &mut Document) -> Option<Turn> {
         let help = "give `quaternion`, `matrix`, `euler` or `rotation_vector`";
         return document.refuse(section.span.clone(), "this pose has no orientation", help);
     };
-    let section = document.section(&item)?;
-    section.check_keys(&[&keys::EULER], document);
+    let section = document.table(&item, "euler", &[&keys::EULER])?;
     let order = section.required("order", document).and_then(|item| document.choice(&item, &EULER_ORDERS));
     let factor = unit(&section, document, Dimension::NONE);
     Some(Turn::Euler(Box::new(columns(&section, "columns", document)?), order?, factor?))

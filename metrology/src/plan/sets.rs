@@ -138,9 +138,8 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
         return None;
     }
     root.check_keys(&[&keys::FILE], document);
-    let mut head = root.required("plan", document).and_then(|item| document.section(&item))?;
-    head.name = "[plan]".to_owned();
-    head.check_keys(&[&keys::PLAN], document);
+    let head = root.required("plan", document)?;
+    let head = document.table(&head, "[plan]", &[&keys::PLAN])?;
     let repeat =
         head.get("repeat").map_or(Some(1), |item| count(&item, keys::MOST_REPEATS as usize, document));
     let inputs = match root.get("inputs") {
