@@ -65,9 +65,9 @@ fn the_answer_for_the_papers_robot() {
         "  as built        5.480 mm   1096 %   P(within) < 0.002 %",
         "  compensated     0.349 mm     70 %",
         "  random only     0.099 mm     20 %",
-        "  assembly               5.330    94 %       × 0.093",
-        "  arm deflection         0.519     7 %        × 0.96",
-        "  all, as built          5.480               × 0.091",
+        "  assembly               5.330    94 %     × 0.064",
+        "  arm deflection         0.519     7 %      × 0.21",
+        "  all, as built          5.480             × 0.091",
         "Worst     at d1 = 8.8331 mm, d2 = 80 mm, d3 = 986.701 mm, q4 = 70°",
         "Published 4 of 5 figures of the paper reproduced; spin encoder",
     ];

@@ -65,11 +65,4 @@ impl Op {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_operation_is_small() {
-        assert_eq!(size_of::<Op>(), 16);
-    }
-}
+mod tests;

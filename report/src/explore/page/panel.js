@@ -145,4 +145,8 @@ export function mount(section, generated, report, index) {
     });
     draw(true);
     settle();
+    // Where no link says otherwise, the page opens at the largest error of the study.
+    if (!report.residuals && panel.cloud && report.configurations.q.length > 0 && encodeState(report, state, prefix) === "") {
+        panel.load(panel.cloud.position.worst);
+    }
 }

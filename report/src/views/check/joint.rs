@@ -15,6 +15,7 @@ pub(super) fn joint(variable: &Variable, length: LengthUnit) -> [String; 3] {
     let [lower, upper] = variable.limits.map(|limit| short(limit * scale));
     let limits = match variable.limits.map(f64::is_finite) {
         [false, false] => "no limits".to_owned(),
+        _ if lower == upper => format!("{lower} {unit}"),
         _ => format!("{lower} … {upper} {unit}"),
     };
     [kind.to_owned(), limits, quantity(variable.home * scale, unit)]

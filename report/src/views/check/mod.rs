@@ -4,7 +4,7 @@ mod chain;
 mod joint;
 mod tree;
 
-use abbe_spec::{Frame, Spec, Variable};
+use abbe_spec::{Frame, Input, Spec, Variable};
 use abbe_study::check::{Identifiable, Law, Report};
 use abbe_study::number::{self, counted, quantity, short};
 
@@ -134,10 +134,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         let inputs: Vec<String> = spec
             .inputs
             .iter()
-            .map(|input| {
-                let [lower, upper] = input.range.map(short);
-                format!("{} {} ({lower} … {upper})", input.name, quantity(input.value, &input.unit))
-            })
+            .map(|input| format!("{} {} ({})", input.name, quantity(input.value, &input.unit), values(input)))
             .collect();
         facts.push(("Inputs", first(&inputs, 4)));
     }
@@ -180,18 +177,18 @@ fn parameters(spec: &Spec) -> Table {
 
 fn inputs(spec: &Spec) -> Table {
     let rows = spec.inputs.iter().map(|u| {
-        let [lower, upper] = u.range.map(short);
-        let range = match &u.levels[..] {
-            [] => format!("{lower} … {upper} {}", u.unit),
-            levels => format!(
-                "{} {}",
-                levels.iter().map(|level| short(*level)).collect::<Vec<_>>().join(", "),
-                u.unit
-            ),
-        };
+        let range = format!("{} {}", values(u), u.unit);
         [u.name.clone(), quantity(u.value, &u.unit), range, u.description.clone()]
     });
     Table::new("", ["name", "nominal", "range", "what"].map(words)).rows(rows)
+}
+
+/// Returns the range of an input, or its levels.
+fn values(input: &Input) -> String {
+    match &input.levels[..] {
+        [] => input.range.map(short).join(" … "),
+        levels => levels.iter().map(|level| short(*level)).collect::<Vec<_>>().join(", "),
+    }
 }
 
 fn sources_one_by_one(report: &Report) -> Table {
