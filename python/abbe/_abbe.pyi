@@ -711,7 +711,7 @@ class Report:
         >>> import abbe
         >>> ledger = abbe.load("pps").analyze().table("ledger.sources")
         >>> len(ledger), ledger.columns
-        (7, ('name', 'max', 'rms', 'share_of_tolerance', 'share', 'class', 'rank'))
+        (7, ('name', 'max', 'rms', 'share_of_tolerance', 'share', 'factor', 'class', 'rank'))
         """
     def __dir__(self) -> list[str]: ...
     def __reduce__(self) -> tuple[Any, tuple[Any]]: ...

@@ -251,7 +251,7 @@ impl Report {
     /// >>> import abbe
     /// >>> ledger = abbe.load("pps").analyze().table("ledger.sources")
     /// >>> len(ledger), ledger.columns
-    /// (7, ('name', 'max', 'rms', 'share_of_tolerance', 'share', 'class', 'rank'))
+    /// (7, ('name', 'max', 'rms', 'share_of_tolerance', 'share', 'factor', 'class', 'rank'))
     fn table(&self, name: &str) -> PyResult<Table> {
         if let Some(rows) = self.rows.as_ref().filter(|_| name == "rows") {
             return Table::new(rows);

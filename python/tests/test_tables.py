@@ -42,7 +42,7 @@ def test_some_reader_is_here():
 
 
 @pytest.mark.parametrize("name", READERS)
-@pytest.mark.parametrize("table", ["ledger.sources", "ledger.sums", "budget.sources", "published"])
+@pytest.mark.parametrize("table", ["ledger.sources", "ledger.sums", "orientation.sources", "published"])
 def test_readers(name, table):
     table = REPORT.table(table)
     read = READERS[name](table)
@@ -58,7 +58,7 @@ def test_tables_are_the_fields():
     sources = REPORT.table("sources").to_dict()
     assert sources["plain_max.norm"] == [source.plain_max.norm for source in REPORT.sources]
     assert sources["orientation"] == [source.orientation for source in REPORT.sources]
-    assert set(REPORT.tables()) >= {"sources", "ledger.sources", "budget.sources", "uncertainty.sources"}
+    assert set(REPORT.tables()) >= {"sources", "ledger.sources", "orientation.sources", "uncertainty.sources"}
     for name in REPORT.tables():
         assert len(REPORT.table(name)) > 0 and REPORT.table(name).columns
     assert len(REPORT.table("unreachable_reasons")) == 0

@@ -85,7 +85,7 @@ impl<'a> BudgetSweep<'a> {
         }
         // If one of these cannot be evaluated, the sweep over all of them reports it.
         let known = &manipulator.description().sources;
-        let mut sample = Measurand::ALL.map(|measurand| SampleErrors::new(measurand));
+        let mut sample = Measurand::ALL.map(SampleErrors::new);
         let count = (workspace.len() / 256).clamp(SCATTERED[0], SCATTERED[1]);
         let _ = sweep(manipulator, &Subset { workspace, count }, &mut |row| {
             sample.iter_mut().for_each(|sample| sample.add(known, row));

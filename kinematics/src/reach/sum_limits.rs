@@ -25,7 +25,7 @@ pub(crate) struct Follower {
 impl SumLimits {
     /// Creates the limits of a manipulator. Of the variables in a fixed sum, the first one in
     /// `order` follows the others.
-    pub(crate) fn new(description: &Description, order: impl Iterator<Item = usize> + Clone) -> Self {
+    pub(crate) fn new(description: &Description, order: &[usize]) -> Self {
         let mut followers: Vec<Follower> = Vec::new();
         for limit in description.sum_limits.iter().filter(|limit| limit.range[0] == limit.range[1]) {
             // 0 = constant + Σ wᵢ qᵢ, without the variables that already follow.
@@ -36,7 +36,7 @@ impl SumLimits {
                 constant += follower.substitute(&mut rest);
             }
             let size = limit.terms.iter().fold(0.0, |size: f64, (_, weight)| size.max(weight.abs()));
-            let Some(variable) = order.clone().find(|i| rest[*i].abs() > 1e-9 * size) else { continue };
+            let Some(&variable) = order.iter().find(|i| rest[**i].abs() > 1e-9 * size) else { continue };
             let pivot = -rest[variable];
             rest[variable] = 0.0;
             let weights = rest.iter().map(|weight| weight / pivot).collect();

@@ -127,7 +127,7 @@ impl<'a> Problem<'a> {
         let mut free = free.to_vec();
         free.sort_unstable();
         free.dedup();
-        let sums = SumLimits::new(manipulator.description(), free.iter().rev().copied());
+        let sums = SumLimits::new(manipulator.description(), &free.iter().rev().copied().collect::<Vec<_>>());
         let mut held = (0..variables.len()).filter(|i| !free.contains(i));
         if let Some(i) = held.find(|&i| beyond(&variables[i], start[i]) > AT_LIMIT) {
             return Err(outside_limits(variables, i, start[i]));

@@ -35,7 +35,7 @@ pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>)
         }
     }
     let limits = description.variables.iter().map(|variable| variable.limits).collect();
-    let sums = SumLimits::new(description, core::iter::empty());
+    let sums = SumLimits::new(description, &[]);
     Ok(Listed { home, configurations, limits, sums })
 }
 

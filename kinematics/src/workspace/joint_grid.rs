@@ -26,7 +26,8 @@ pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<JointG
     let indices = axes.iter().map(|axis| axis.index);
     in_range(indices, Quantity::Variables, description.variables.len())?;
     let named = |i: &usize| axes.iter().any(|axis| axis.index == *i);
-    let sums = SumLimits::new(description, (0..description.variables.len()).rev().filter(|i| !named(i)));
+    let others: Vec<usize> = (0..description.variables.len()).rev().filter(|i| !named(i)).collect();
+    let sums = SumLimits::new(description, &others);
     Ok(JointGrid { home: Configuration::home(description), axes: axes.to_vec(), sums })
 }
 

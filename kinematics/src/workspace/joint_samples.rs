@@ -94,7 +94,8 @@ fn samples(
         shares: RadicalInverses::new(sampling::prime(dimension)),
     });
     let held = (0..description.variables.len()).rev().filter(|i| !moved.contains(i));
-    let sums = SumLimits::new(description, held.chain(moved.iter().rev().copied()));
+    let order: Vec<usize> = held.chain(moved.iter().rev().copied()).collect();
+    let sums = SumLimits::new(description, &order);
     let moved = sampled.collect();
     Ok(JointSamples { home, moved, count, spread, sums })
 }

@@ -160,7 +160,7 @@ fn the_worst_case_of_a_sweep_is_the_largest_over_all_signs() {
             let distribution = if i == 0 { "" } else { "distribution = \"uniform\"" };
             let frame = ["shoulder", "elbow"][i % 2];
             // Every third one acts along x alone.
-            let other = if i % 3 == 0 { 0.0 } else { number(i, 1) };
+            let other = if i.is_multiple_of(3) { 0.0 } else { number(i, 1) };
             format!(
                 "[[source]]\nname = \"s{i}\"\nclass = \"{class}\"\n{distribution}\nframe = \"{frame}\"\n\
                  e_x = \"{} mm\"\ne_z = \"{other} mm\"\ne_r = \"{} mrad\"\n",

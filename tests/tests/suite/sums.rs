@@ -27,7 +27,7 @@ fn limited(seed: usize) -> Interpreter {
         -0.2 - number(1),
         0.1 + number(2)
     );
-    if let Some(third) = alike.get(2).filter(|_| seed % 2 == 0) {
+    if let Some(third) = alike.get(2).filter(|_| seed.is_multiple_of(2)) {
         limits += &format!("[[limit]]\nsum = \"{third} + 0.5*{}\"\nequals = 0\n", alike[0]);
     }
     Interpreter::new(Spec::parse("any.toml", &(text + &limits)).expect("a spec with limits"))
