@@ -97,7 +97,9 @@ class AllocateReport(Report):
     """Sum of the costs of all factors that are not fixed."""
 
     one_factor: float
-    """Factor of all these sources if they have the same one."""
+    """Factor of all these sources if they have the same one; with the root sum of squares of the others where draws
+    decide.
+    """
 
     one_factor_cost: float
     """Cost with this factor."""

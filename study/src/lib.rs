@@ -69,6 +69,7 @@ pub mod calibration;
 mod changed_text;
 mod changes;
 pub mod extrapolation;
+mod factors;
 pub mod finite;
 mod iso230;
 pub mod lines;

@@ -45,9 +45,9 @@ fn it_refuses_what_it_cannot_do() {
     refused(&["allocate", "machine3"], &["there is no tolerance to keep"]);
     refused(&["allocate", "pps", "--tolerance", "1 nm", "--disable", "nothing"], &["nothing"]);
     let folder = tempdir().unwrap();
-    let study = "[study]\ntitle = \"Likely\"\ntolerance = { position = \"0.5 mm\", probability = 0.9 }\n[workspace.joints]\nsamples = 9\n";
-    let study = write(folder.path(), "likely.toml", study);
-    refused(&["allocate", "pps", "--study", study.to_str().unwrap()], &["probability"]);
+    let study = "[study]\ntitle = \"Corrected\"\ntolerance = \"0.5 mm\"\n[workspace.joints]\nsamples = 9\n[compensation]\ndefault = 0.1\n";
+    let study = write(folder.path(), "corrected.toml", study);
+    refused(&["allocate", "pps", "--study", study.to_str().unwrap()], &["judges the compensated machine"]);
     let one: Value = json(&["allocate", "pps", "--tolerance", "20 mm", "--json"]);
     assert!(one["active"].as_object().unwrap().is_empty() && one["one_factor"] == 1.0);
 }

@@ -3,6 +3,7 @@
 use abbe_spec::option::option;
 use abbe_study::allocate::{AllocatedSource, Report, printed};
 use abbe_study::number::{counted, digits, error_unit};
+use abbe_study::study_file::Criterion;
 
 use super::analysis::by_criterion;
 use super::shared::{changed, place};
@@ -22,6 +23,8 @@ pub fn allocation(report: &Report) -> Document {
     let mut shown = table(report);
     let more = shown.rows.split_off(shown.rows.len().min(SHOWN)).len();
     shown.rest = if more > 0 { format!("… {more} more") } else { String::new() };
+    let is_drawn = matches!(report.study.criterion, Criterion::Probability | Criterion::Yield);
+    let meaning = if is_drawn { DRAWN } else { MEANING };
     let options = report.scales().into_iter().map(|scale| option("scale", scale).to_string()).collect();
     Document {
         kind: "Allocation of a tolerance",
@@ -34,7 +37,7 @@ pub fn allocation(report: &Report) -> Document {
         ),
         sections: vec![
             Section::answer().table(shown).facts(facts(report)),
-            Section::full("Factors").table(table(report)).state("factors", MEANING.to_owned()),
+            Section::full("Factors").table(table(report)).state("factors", meaning.to_owned()),
             Section::full("Options").list("options", "These options apply the factors:", options),
         ],
         ..Document::default()
@@ -44,6 +47,11 @@ pub fn allocation(report: &Report) -> Document {
 /// Definition of the factors.
 const MEANING: &str = "Each factor multiplies the errors of its source. The tolerance is kept with these factors as they are \
  printed, and with all smaller ones: no error is relied on to cancel another one. The sum of the costs c/xᵖ is the least possible.";
+
+/// Definition of the factors where draws decide.
+const DRAWN: &str = "Each factor multiplies the errors of its source. With these factors as they are printed an analysis keeps the \
+ tolerance by its draws, without the sources that counteract others, too. The sum of the costs c/xᵖ is the least at which \
+ the root sum of squares is as large: the multiple of the tolerance that it may have is found by bisection, to 1 %.";
 
 /// Tabulates the sources, the smallest factor first.
 fn table(report: &Report) -> Table {

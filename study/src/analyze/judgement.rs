@@ -12,7 +12,7 @@ use super::report::{
     ToleranceVerdict, Verdict, Verdicts,
 };
 use super::sweep::AnalysisSweep;
-use crate::allocate::{self, Allocate};
+use crate::factors::{self, Factors};
 use crate::study_file::{Criterion, JudgedMachine};
 
 /// Largest number of configurations for which factors are searched for.
@@ -49,13 +49,16 @@ impl AnalysisSweep<'_> {
 
     /// Returns the factors of the sources with which a study that is not met as built would be;
     /// `None` if it is, there are none, or the search would take longer than the analysis.
-    pub(super) fn allocation(&self, verdicts: &Verdicts) -> Option<allocate::Report> {
+    pub(super) fn allocation(&self, verdicts: &Verdicts) -> Option<factors::Report> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
-        let is_searched = verdicts.verdict == Verdict::NotMet
+        let by_factors = matches!(study.criterion, Criterion::WorstCase | Criterion::RootSumOfSquares);
+        let is_searched = by_factors
+            && verdicts.verdict == Verdict::NotMet
             && verdicts.unreachable.is_none()
             && !machine.is_calibrated()
             && workspace.len() <= ALLOCATED;
-        is_searched.then(|| Allocate::in_analysis(machine, study, manipulator, workspace).ok()).flatten()
+        let search = Factors { machine, study, loosen: false };
+        is_searched.then(|| search.over(manipulator, workspace, &mut ()).ok()).flatten()
     }
 
     /// Returns the distribution of the error at a configuration.

@@ -154,3 +154,58 @@ fn orientation_and_changes_count() {
     let written = written(&pps, &changes, &report);
     assert!(written.enabled_sources().all(|source| source.name != "assembly"));
 }
+
+const SLIDE: &str = "[manipulator]\nname = \"slide\"\nlength = \"mm\"\n[[frame]]\nname = \"x\"\n\
+    variable = { name = \"d\", kind = \"prismatic\", limits = [0, 1] }\ntransform = \"Tx(d)\"\n";
+
+/// Checks one uniform error of ±1 mm against its closed form, and that factors by draws are met.
+#[test]
+fn factors_by_probability_and_yield_are_those_of_closed_forms() {
+    let source = |name: &str, class: &str, error: &str| {
+        format!(
+            "[[source]]\nname = \"{name}\"\nclass = \"{class}\"\ndistribution = \"uniform\"\nframe = \"x\"\ne_x = \"{error}\"\n"
+        )
+    };
+    let study = |required: &str| {
+        format!(
+            "[study]\ntitle = \"t\"\ntolerance = {{ position = \"0.5 mm\", {required} }}\n[workspace.grid]\nd = [0, 1]\n"
+        )
+    };
+    let one = source("gap", "tolerance", "1 mm");
+    // |x ξ| ≤ 0.5 with the probability 0.5/x.
+    for required in ["probability = 0.9", "yield = 0.9"] {
+        let machine =
+            Machine::of_spec(Spec::parse("slide.toml", &(SLIDE.to_owned() + &one)).unwrap(), "slide.toml");
+        let report = run(&machine, read(&machine, &study(required)));
+        let factor = report.sources[0].factor;
+        // Yield is the lower end of an interval.
+        assert!(factor < 0.5 / 0.9 && factor > 0.98 * 0.5 / 0.9, "{required}: {factor}");
+        assert_eq!(report.tolerance, Some(0.5));
+    }
+    let errors = one
+        + &source("play", "random", "0.8 mm")
+        + "[[source]]\nname = \"sag\"\nclass = \"repeatable\"\nframe = \"x\"\ne_x = \"-0.2 mm\"\n"
+        + "[[source]]\nname = \"growth\"\nclass = \"repeatable\"\nframe = \"x\"\ne_x = \"0.3 mm\"\n";
+    let machine =
+        Machine::of_spec(Spec::parse("slide.toml", &(SLIDE.to_owned() + &errors)).unwrap(), "slide.toml");
+    let likely = study("probability = 0.95");
+    let report = run(&machine, read(&machine, &likely));
+    let verdict = |without: &[&str], times: f64| {
+        let mut scales = report.scales();
+        scales.extend(report.sources.iter().map(|source| format!("{}={times}", source.source)));
+        scales.extend(without.iter().map(|name| format!("{name}=0")));
+        let mut job = Analyze::new(machine.clone(), read(&machine, &likely));
+        job.change(&Changes::read([&[], &[], &[], &scales], &machine.spec).unwrap(), &mut ());
+        job.run(&mut ()).unwrap().verdicts.unwrap().verdict
+    };
+    assert_eq!(verdict(&[], 1.0), Verdict::Met);
+    // The sag counteracts the growth: without it the tolerance is kept, too.
+    assert_eq!(verdict(&["sag"], 1.0), Verdict::Met);
+    assert_eq!(verdict(&["sag"], 1.03), Verdict::NotMet);
+    let fixed = format!("{likely}[allocation]\ngap = {{ fixed = true }}\n");
+    let refused = Allocate::new(machine.clone(), read(&machine, &fixed)).run(&mut ()).unwrap_err();
+    assert!(
+        refused.to_string().contains("no factors keep the tolerance with the required probability"),
+        "{refused}"
+    );
+}

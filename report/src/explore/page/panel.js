@@ -91,15 +91,22 @@ export function mount(section, generated, report, index) {
     const limits = () => String([panel.tolerances.position ?? "", panel.tolerances.orientation ?? ""]);
     const studied = limits();
     const refused = html("p", { class: "detail", role: "status" });
-    /** Takes the tolerances of the address, or those of the study, and says what of the address is not taken. */
+    /** Takes the tolerances of the address, or those of the study, with what it shows, and says what of it is not taken. */
     const arrive = () => {
-        const given = new URLSearchParams(location.hash.slice(1)).get(`${prefix}tolerances`)?.split(",").map(Number);
+        const address = new URLSearchParams(location.hash.slice(1));
+        const [rows, along] = (address.get(`${prefix}shown`) ?? "").split(",");
+        panel.measurand = rows === "orientation" ? rows : "position";
+        panel.joint = Math.max(0, report.variables.findIndex(({ name }) => name === along));
+        const given = address.get(`${prefix}tolerances`)?.split(",").map(Number);
         const limit = (/** @type {number} */ value) => (value > 0 && value < Infinity ? value : null);
         panel.tolerances = given ? { position: limit(given[0]), orientation: limit(given[1]) } : { position, orientation };
         setText(refused, ignored.length === 0 ? "" : `Not taken from the link, because this machine has no such value: ${ignored.join(", ")}.`);
     };
     arrive();
-    addresses.push(() => [encodeState(report, state, prefix), limits() === studied ? "" : `${prefix}tolerances=${limits()}`].filter(Boolean).join("&"));
+    const shown = () => (panel.measurand === "position" && panel.joint === 0 ? ""
+        : `${prefix}shown=${panel.measurand},${encodeURIComponent(report.variables[panel.joint]?.name ?? "")}`);
+    addresses.push(() => [encodeState(report, state, prefix), limits() === studied ? "" : `${prefix}tolerances=${limits()}`, shown()]
+        .filter(Boolean).join("&"));
     const measured = report.residuals ? [createResiduals(panel, report.residuals)] : [];
     const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel), createView(panel, measured), createSources(panel)];
     const [poses, jacobian, same] = [createPoses(panel), createJacobian(panel), createSame(panel)];

@@ -55,14 +55,14 @@ export function createSources(panel) {
     const measurands = (/** @type {const} */ (["position", "orientation"])).map((measurand) => {
         const radio = html("input", { type: "radio", name: `abbe-measurand-${panel.index}`, checked: measurand === panel.measurand });
         radio.addEventListener("change", () => change(() => { panel.measurand = measurand; }));
-        return html("label", {}, radio, measurand);
+        return { measurand, radio, element: html("label", {}, radio, measurand) };
     });
     const heads = spans("name", "number", "share", "factor", "allowed", "bar");
     const sums = spans("name", "number", "share", "factor", "allowed");
     ["source", "", "share", "factor", "allowed"].forEach((text, i) => setText(heads[i], text));
     setText(sums[0], "all together");
     const element = html("section", { class: "sources" },
-        html("fieldset", { class: "measurand" }, html("legend", {}, "Sources of error here"), ...measurands),
+        html("fieldset", { class: "measurand" }, html("legend", {}, "Sources of error here"), ...measurands.map(({ element }) => element)),
         html("div", { class: "head", "aria-hidden": true }, ...heads), list, html("div", { class: "total" }, ...sums));
 
     function update() {
@@ -73,6 +73,7 @@ export function createSources(panel) {
         const places = decimals(factor * errors.radius, 4);
         const tolerance = tolerances[measurand];
         const effects = panel.machine.effects(state);
+        measurands.forEach((one) => { one.radio.checked = one.measurand === measurand; });
         rows.forEach((row, k) => {
             const [norm, isRandom] = [errors.norms[k], report.sources[k].class !== "repeatable"];
             row.update();

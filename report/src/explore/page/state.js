@@ -73,8 +73,8 @@ export function settings({ parameters, inputs }, { s, u }) {
         values[i] === nominal ? [] : [[name, exact(values[i], unit)]]);
 }
 
-/** Returns the key of a parameter or input; two names are keys of the page. @param {string} name @returns {string} */
-const keyOf = (name) => (name === "q" || name === "tolerances" ? `set.${name}` : name);
+/** Returns the key of a parameter or input; some names are keys of the page. @param {string} name @returns {string} */
+const keyOf = (name) => (["q", "tolerances", "shown"].includes(name) ? `set.${name}` : name);
 
 /**
  * Returns what differs from the spec at home, for the address: `q=9mm,70deg&payload=70kg&factor.gear=0.5`.
@@ -104,7 +104,7 @@ export function decodeState(report, hash, prefix = "", ignored = []) {
         if (text) ignored.push(`${name}=${text}`);
         return otherwise;
     };
-    const known = new Set(["tolerances"]);
+    const known = new Set(["tolerances", "shown"]);
     const read = (/** @type {string} */ key) => {
         known.add(key);
         return parts.get(prefix + key);

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::judged_shares::JudgedShares;
 use super::source_report::SourceReport;
-use crate::{allocate, number};
+use crate::{factors, number};
 
 /// Ledger of the position errors: norms in the length unit.
 #[derive(Clone, Debug, Serialize)]
@@ -58,7 +58,7 @@ impl Ledger {
         sources: &[SourceReport],
         tolerance: Option<f64>,
         judged: &JudgedShares,
-        allocation: Option<&allocate::Report>,
+        allocation: Option<&factors::Report>,
     ) -> Self {
         let entry = |name: &str, largest: Extreme, rms| LedgerEntry {
             name: name.to_owned(),
@@ -79,7 +79,7 @@ impl Ledger {
             let mut allocated = allocated.filter(|allocated| allocated.source == source.name);
             LedgerEntry {
                 share: Some(*share),
-                factor: allocated.next().map(|allocated| allocate::printed(allocated.factor)),
+                factor: allocated.next().map(|allocated| factors::printed(allocated.factor)),
                 class: Some(class),
                 ..entry(&source.name, largest, Some(errors.rms))
             }

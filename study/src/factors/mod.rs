@@ -1,4 +1,5 @@
-//! Allocation: factors of the error sources with which a study keeps its tolerance at least cost.
+//! Factors of the error sources with which a study keeps its tolerance at least cost, by the worst
+//! case or the root sum of squares.
 
 mod report;
 
@@ -11,7 +12,6 @@ use abbe_spec::Source;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::option;
 
-use crate::changes::Changes;
 use crate::finite::finite;
 use crate::machine::{Machine, followed_source};
 use crate::notes::Notes;
@@ -30,56 +30,25 @@ const LEAST: f64 = 0.001;
 /// Largest factor of sources that may be worse than they are.
 const MOST: f64 = 1000.0;
 
-/// Job of `abbe allocate`: finds the factors of the sources that cost least.
-#[derive(Clone)]
-pub struct Allocate {
-    machine: Machine,
-    study: Study,
+/// Search for the factors that cost least.
+pub(crate) struct Factors<'a> {
+    pub(crate) machine: &'a Machine,
+    /// The study, whose changes are made.
+    pub(crate) study: &'a Study,
     /// Allows factors above 1.
-    pub loosen: bool,
+    pub(crate) loosen: bool,
 }
 
-crate::reads! { Allocate: machine study, without loosen; }
-
-impl Allocate {
-    /// Creates the job for a machine and a study, and applies the study's changes to the machine.
-    pub fn new(mut machine: Machine, mut study: Study) -> Self {
-        study.change(&mut machine, &study.changes.clone());
-        Self { machine, study, loosen: false }
-    }
-
-    /// Returns the factors over the workspace of an analysis, whose changes are made.
-    pub(crate) fn in_analysis(
-        machine: &Machine,
-        study: &Study,
-        manipulator: &dyn Sweepable,
-        workspace: &dyn Workspace,
-    ) -> Result<Report, Diagnostics> {
-        let job = Self { machine: machine.clone(), study: study.clone(), loosen: false };
-        job.over(manipulator, workspace, &mut ())
-    }
-
-    /// Makes further changes.
-    pub fn change(&mut self, changes: &Changes) {
-        self.study.change(&mut self.machine, changes);
-    }
-
+impl Factors<'_> {
     /// Optimizes the factors over the configurations that exceed the tolerance the most, and adds
     /// those that exceed it with the found factors until there are none.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        let manipulator = &*self.machine.evaluator(true);
-        let workspace = self.study.region.workspace(manipulator, None);
-        let workspace = workspace.map_err(|error| mistake::whole(&self.machine.origin, &error))?;
-        self.over(manipulator, &*workspace, notes)
-    }
-
-    fn over(
+    pub(crate) fn over(
         &self,
         manipulator: &dyn Sweepable,
         workspace: &dyn Workspace,
         notes: &mut dyn Notes,
     ) -> Result<Report, Diagnostics> {
-        let Self { machine, study, .. } = self;
+        let Self { machine, study, .. } = *self;
         let spec = &machine.spec;
         let refused = |message: &str, help: &str| mistake::with_help(&machine.origin, message, help);
         let tolerances = study.tolerances();
@@ -92,11 +61,7 @@ impl Allocate {
         }
         let criterion = match study.criterion {
             Criterion::WorstCase => AllocationCriterion::WorstCase,
-            Criterion::RootSumOfSquares => AllocationCriterion::RootSumOfSquares,
-            Criterion::Probability | Criterion::Yield => {
-                let message = "factors are not allocated by probability or yield";
-                return Err(refused(message, "write `criterion = \"worst-case\"` or `\"rss\"` into [study]"));
-            }
+            _ => AllocationCriterion::RootSumOfSquares,
         };
         let mut allocator = Allocator::new(criterion, self.sources());
         loop {

@@ -31,7 +31,8 @@ pub struct Report {
     pub sources: Vec<AllocatedSource>,
     /// Sum of the costs of all factors that are not fixed.
     pub cost: f64,
-    /// Factor of all these sources if they have the same one.
+    /// Factor of all these sources if they have the same one; with the root sum of squares of the
+    /// others where draws decide.
     pub one_factor: f64,
     /// Cost with this factor.
     pub one_factor_cost: f64,
