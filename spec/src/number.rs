@@ -1,6 +1,6 @@
 //! Formats numbers for people.
 
-use abbe_core::{Class, LengthUnit, VariableKind};
+use abbe_core::{Class, LengthUnit, SumLimit, VariableKind};
 
 use crate::expr::Symbol;
 use crate::manipulator::{Spec, Variable};
@@ -80,6 +80,16 @@ pub fn of_variable(value: f64, kind: VariableKind, unit: LengthUnit) -> String {
     match kind {
         VariableKind::Revolute => format!("{}°", trimmed(value.to_degrees(), 4)),
         VariableKind::Prismatic => length(value, unit),
+    }
+}
+
+/// Formats a sum of joints that is beyond its limits, such as `x1 - x2 = 1 mm, which must be 0 mm`.
+pub fn beyond_sum_limit(limit: &SumLimit, value: f64, unit: LengthUnit) -> String {
+    let [lower, upper] = limit.range;
+    let [value, least, largest] = [value, lower, upper].map(|value| of_variable(value, limit.kind, unit));
+    match lower == upper {
+        true => format!("{} = {value}, which must be {least}", limit.sum),
+        false => format!("{} = {value}, outside its limits {least} … {largest}", limit.sum),
     }
 }
 

@@ -84,8 +84,11 @@ impl Allocate {
             match at(multiple, notes) {
                 Ok(tried) if self.is_kept(&tried.scales(), notes)? => (kept, found) = (multiple, Some(tried)),
                 Ok(_) => exceeded = multiple,
-                // Fixed sources alone exceed it.
-                Err(_) => kept = multiple,
+                // Fixed sources alone exceed it, if the search was not stopped.
+                Err(_) => {
+                    notes.go_on()?;
+                    kept = multiple;
+                }
             }
         }
         let Some(found) = found else {
@@ -93,9 +96,12 @@ impl Allocate {
             let help = "allow a larger tolerance or a smaller probability, or remove `fixed`";
             return Err(mistake::with_help(&self.machine.origin, message, help));
         };
+        let judged = self.analyzed(&found.scales())?.verdicts;
+        let drawn = judged.and_then(|verdicts| Some(verdicts.counting().yielded?.configurations));
+        let configurations = drawn.unwrap_or(found.configurations);
         let study = study.clone();
         let (tolerance, orientation_tolerance) = (study.tolerance, study.orientation_tolerance);
-        Ok(Report { tolerance, orientation_tolerance, study, ..found })
+        Ok(Report { tolerance, orientation_tolerance, configurations, study, ..found })
     }
 
     /// Returns `true` if an analysis with these factors meets the study, and still does without the

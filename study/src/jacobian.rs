@@ -72,6 +72,9 @@ impl Jacobian {
         for (variable, value) in spec.variables.iter().zip(&q) {
             note_beyond_limits(variable, *value, spec, notes);
         }
+        for limit in spec.sum_limits.iter().filter(|limit| !limit.permits(&q)) {
+            notes.note(&number::beyond_sum_limit(limit, limit.value(&q), spec.length));
+        }
         let s = sampling::nominal_parameters(description);
         let u = sampling::nominal_inputs(description);
         let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];

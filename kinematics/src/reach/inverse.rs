@@ -75,39 +75,24 @@ impl<'a> Inverse<'a> {
         };
         let set = InstructionSet::best();
         let mut found: Vec<_> = targets.iter().map(|target| closed(problem, target).map(Ok)).collect();
-        for kind in [Kind::Point, Kind::Pose, Kind::Axis] {
-            let open =
-                (0..targets.len()).filter(|i| found[*i].is_none() && Kind::kind_of(&targets[*i]) == kind);
-            let open: Vec<usize> = open.collect();
+        let rows = |target: &Target| match target {
+            Target::Point(_) => 3,
+            Target::Axis { .. } => 5,
+            Target::Pose(_) => 6,
+        };
+        for count in [3, 5, 6] {
+            let open: Vec<usize> =
+                (0..targets.len()).filter(|i| found[*i].is_none() && rows(&targets[*i]) == count).collect();
             let targets: &[Target] = &open.iter().map(|i| targets[*i]).collect::<Vec<_>>();
-            let searched = match kind {
+            let searched = match count {
                 _ if open.is_empty() => continue,
-                Kind::Point => set.run(Descents::<3> { problem, chain, targets, bounds, start }),
-                Kind::Pose => set.run(Descents::<6> { problem, chain, targets, bounds, start }),
-                Kind::Axis => targets.iter().map(|target| Search { problem, target }.solve()).collect(),
+                3 => set.run(Descents::<3> { problem, chain, targets, bounds, start }),
+                6 => set.run(Descents::<6> { problem, chain, targets, bounds, start }),
+                _ => targets.iter().map(|target| Search { problem, target }.solve()).collect(),
             };
             open.into_iter().zip(searched).for_each(|(i, searched)| found[i] = Some(searched));
         }
         found.into_iter().flatten().collect()
-    }
-}
-
-/// Kind of a target.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Point,
-    Pose,
-    Axis,
-}
-
-impl Kind {
-    /// Returns the kind of a target.
-    fn kind_of(target: &Target) -> Self {
-        match target {
-            Target::Point(_) => Self::Point,
-            Target::Pose(_) => Self::Pose,
-            Target::Axis { .. } => Self::Axis,
-        }
     }
 }
 

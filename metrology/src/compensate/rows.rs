@@ -15,7 +15,7 @@ use serde::Serialize;
 use super::base_frame::BaseFramePoses;
 use super::reason::reason;
 use crate::data::{Data, Unusable};
-use abbe_study::number::{Named, length, of_variable};
+use abbe_study::number::{Named, beyond_sum_limit, length, of_variable};
 use abbe_study::{Notes, Residual, mistake};
 
 /// Norms of ΔX.
@@ -238,10 +238,7 @@ fn within_limits(description: &Description, q: &[f64]) -> Result<(), String> {
 /// Checks the limits of sums of joints.
 fn sums_within_limits(description: &Description, q: &[f64]) -> Result<(), String> {
     let Some(limit) = description.sum_limits.iter().find(|limit| !limit.permits(q)) else { return Ok(()) };
-    let kind = description.variables[limit.terms[0].0].kind;
-    let [value, lower, upper] = [limit.value(q), limit.range[0], limit.range[1]]
-        .map(|value| of_variable(value, kind, description.length));
-    Err(format!("{} is commanded to {value}, beyond its limits {lower} … {upper}", limit.sum))
+    Err(format!("the command has {}", beyond_sum_limit(limit, limit.value(q), description.length)))
 }
 
 fn evaluation_message(description: &Description, error: &Error) -> String {
@@ -271,11 +268,9 @@ fn unreachable_message(description: &Description, reason: &ReachError) -> String
             };
             format!("unreachable for the ideal tool: out of reach by {away}{turned}")
         }
-        ReachError::OutsideSumLimit { limit, .. } => {
-            format!(
-                "unreachable for the ideal tool: {} outside its limits",
-                description.sum_limits[*limit].sum
-            )
+        ReachError::OutsideSumLimit { limit, value } => {
+            let beyond = beyond_sum_limit(&description.sum_limits[*limit], *value, description.length);
+            format!("unreachable for the ideal tool: needs {beyond}")
         }
         reason => format!("unreachable for the ideal tool: {reason}"),
     }

@@ -185,11 +185,10 @@ impl Plan {
         objective: Objective<'_>,
         notes: &mut dyn Notes,
     ) -> Result<Chosen, Diagnostics> {
-        let description = manipulator.description();
         let fail = |failure: Failure| mistake::whole(&self.machine.origin, &failure);
         match &self.choice {
             Choice::Sets(sets) => {
-                let (configurations, counts) = sets.rows(manipulator, description, notes)?;
+                let (configurations, counts) = sets.rows(manipulator, notes)?;
                 let rows = (1..).zip(configurations).map(|(line, configuration): (u64, Configuration)| {
                     let u = configuration.u.clone();
                     Observation { u: u.into(), ..self.map.planned(line, configuration) }

@@ -6,8 +6,8 @@ use abbe_spec::option::SETS;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use abbe::analysis::{Axis, Configuration};
-use abbe::{Description, Manipulator};
+use abbe::analysis::{Axis, Configuration, Workspace, joint_grid};
+use abbe::{Error, Manipulator};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 use abbe_spec::document::{Document, Section};
@@ -69,10 +69,8 @@ impl Sets {
     pub(super) fn rows(
         &self,
         manipulator: &dyn Manipulator,
-        description: &Description,
         notes: &mut dyn Notes,
     ) -> Result<(Vec<Configuration>, Vec<SetSize>), Diagnostics> {
-        let home = Configuration::home(description);
         // All combinations of the plan's inputs, each a list of indices and values.
         let mut combinations: Vec<Vec<(usize, f64)>> = vec![Vec::new()];
         let sizes = self.inputs.iter().map(|axis| axis.values.len());
@@ -93,32 +91,31 @@ impl Sets {
             };
             combinations = combinations.iter().flat_map(with).collect();
         }
+        let refused = |set: &Set| {
+            let name = set.name.clone();
+            move |error: Error| mistake::whole(&name, &error)
+        };
         let (mut rows, mut counts) = (Vec::new(), Vec::new());
         for set in &self.sets {
-            let configurations: Vec<Configuration> = match &set.content {
+            let workspaces: Vec<Box<dyn Workspace + '_>> = match &set.content {
                 Content::Workspace(region) => {
-                    let workspace = region.workspace(manipulator, None);
-                    let workspace = workspace.map_err(|error| mistake::whole(&set.name, &error))?;
-                    few_enough(workspace.len())?;
-                    let unreached = workspace.len() - workspace.reached().len();
-                    if unreached > 0 {
-                        notes.note(&format!("{}: {unreached} configurations are unreachable", set.name));
-                    }
-                    workspace.reached()
+                    vec![region.workspace(manipulator, None).map_err(refused(set))?]
                 }
-                Content::Axes(axes) => axes
-                    .iter()
-                    .flat_map(|axis| {
-                        axis.values.iter().map(|value| {
-                            let mut configuration = home.clone();
-                            configuration.q[axis.index] = *value;
-                            configuration
-                        })
-                    })
-                    .collect(),
+                Content::Axes(axes) => {
+                    let grids = axes.iter().map(|axis| joint_grid(manipulator, std::slice::from_ref(axis)));
+                    let grids = grids.map(|grid| Ok(Box::new(grid.map_err(refused(set))?) as _));
+                    grids.collect::<Result<_, Diagnostics>>()?
+                }
             };
+            let all: usize = workspaces.iter().map(|workspace| workspace.len()).sum();
+            few_enough(all)?;
+            let configurations: Vec<Configuration> =
+                workspaces.iter().flat_map(|workspace| workspace.reached()).collect();
+            let unreached = all - configurations.len();
+            if unreached > 0 {
+                notes.note(&format!("{}: {unreached} configurations are unreachable", set.name));
+            }
             let before = rows.len();
-            few_enough(configurations.len())?;
             for inputs in &combinations {
                 for _ in 0..self.repeat {
                     rows.extend(configurations.iter().cloned().map(|mut configuration| {

@@ -108,6 +108,8 @@ impl Variable {
 pub struct SumLimit {
     /// Sum, as the spec writes it.
     pub sum: Text,
+    /// Revolute if the sum is an angle, prismatic if it is a length.
+    pub kind: VariableKind,
     /// Indices of the variables in ascending order, with their weights.
     pub terms: List<(usize, f64)>,
     /// Smallest and largest sum, in the length unit or rad; equal where joints move together.
@@ -116,8 +118,13 @@ pub struct SumLimit {
 
 impl SumLimit {
     /// Creates a limit from its fields.
-    pub const fn new(sum: &'static str, terms: &'static [(usize, f64)], range: [f64; 2]) -> Self {
-        Self { sum: Text::Constant(sum), terms: List::Constant(terms), range }
+    pub const fn new(
+        sum: &'static str,
+        kind: VariableKind,
+        terms: &'static [(usize, f64)],
+        range: [f64; 2],
+    ) -> Self {
+        Self { sum: Text::Constant(sum), kind, terms: List::Constant(terms), range }
     }
 
     /// Returns the sum at joint variables `q`.

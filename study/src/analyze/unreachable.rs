@@ -53,11 +53,7 @@ pub fn unreachable_reason(unreachable: &Unreachable, spec: &Spec) -> String {
             format!("needs {name} = {}, outside its limits {} … {}", show(value), show(lower), show(upper))
         }
         ReachError::OutsideSumLimit { limit, value } => {
-            let limit = &spec.sum_limits[limit];
-            let kind = spec.variables[limit.terms[0].0].kind;
-            let [value, lower, upper] = [value, limit.range[0], limit.range[1]]
-                .map(|value| number::of_variable(value, kind, spec.length));
-            format!("needs {} = {value}, outside its limits {lower} … {upper}", limit.sum)
+            format!("needs {}", number::beyond_sum_limit(&spec.sum_limits[limit], value, spec.length))
         }
         ReachError::Evaluation(error) => error.to_string(),
     }

@@ -16,6 +16,10 @@ use super::path;
 use super::platform::legs;
 use super::region::{Form, LARGEST, Region, has_range};
 
+/// Maximum number of combinations of held values at the points of a box, each with a search of its
+/// own.
+const APPROACHES: usize = 10_000;
+
 /// Reads `[workspace]`: one of the forms, and `inputs` with their own values. Inputs without a name
 /// there stay nominal.
 pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
@@ -134,6 +138,15 @@ fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
     };
     if let (Some(both), Some(item)) = (solved.iter().find(|i| is_held(i)), approaches) {
         document.mistake(held_and_solved(&spec.variables[*both].name, item.span()));
+    }
+    let combinations = held.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul);
+    if combinations > APPROACHES {
+        let message = format!("`approaches` has {combinations} combinations, the maximum is {APPROACHES}");
+        return document.refuse(
+            section.span.clone(),
+            message,
+            "use fewer values, or solve for the variables",
+        );
     }
     let [x, y, z] = points;
     Some(BaseBox { points: [x?, y?, z?], orientations: orientations?, approaches: held, solved })

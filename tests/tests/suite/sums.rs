@@ -6,6 +6,7 @@ use abbe::analysis::{Target, Workspace, inverse, joint_grid, joint_samples, rand
 use abbe::{Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_spec::number::beyond_sum_limit;
 
 use crate::reach::random_spec;
 
@@ -120,6 +121,13 @@ fn racks_of_a_gantry_move_together() {
     assert_eq!(q, [[0.0, 0.0, 100.0], [0.0, 0.0, 600.0], [900.0, 900.0, 100.0]]);
     let reason = grid.configuration(3).unwrap_err();
     assert_eq!(reason, ReachError::OutsideSumLimit { limit: 1, value: 2100.0 });
+    let unit = gantry.description().length;
+    let limits = &gantry.description().sum_limits;
+    assert_eq!(beyond_sum_limit(&limits[0], 1.0, unit), "x1 - x2 = 1 mm, which must be 0 mm");
+    assert_eq!(
+        beyond_sum_limit(&limits[1], 2100.0, unit),
+        "x1 + 2*y = 2100 mm, outside its limits 0 mm … 1500 mm"
+    );
     // A grid of both racks has what the racks cannot do.
     let both = joint_grid(&gantry, &[axis(0, &[0.0, 10.0]), axis(1, &[0.0, 10.0])]).unwrap();
     assert_eq!(both.reached().len(), 2);
@@ -128,4 +136,34 @@ fn racks_of_a_gantry_move_together() {
     assert!(found[0] == found[1] && (found[0] - 400.0).abs() < 1e-6, "{found:?}");
     let far = inverse(&gantry, &[], &[0.0; 3], &[0, 1, 2], &Target::Point([900.0, 600.0, 0.0]));
     assert!(matches!(far, Err(ReachError::OutsideSumLimit { limit: 1, .. })), "{far:?}");
+}
+
+/// Checks that a sum is an angle or a length by its dimension, whatever its first joint is.
+#[test]
+fn a_sum_of_an_angle_and_a_length_has_the_unit_of_its_whole() {
+    let text = |limit: &str| {
+        format!(
+            "[manipulator]\nname = \"lift\"\nlength = \"mm\"\n\
+             [[frame]]\nname = \"turn\"\nvariable = {{ name = \"q\", kind = \"revolute\" }}\ntransform = \"Rz(q)\"\n\
+             [[frame]]\nname = \"lift\"\nvariable = {{ name = \"d\", kind = \"prismatic\" }}\ntransform = \"Tz(d)\"\n\
+             [[limit]]\n{limit}\n"
+        )
+    };
+    for (limit, kind, shown) in [
+        (
+            "sum = \"5 mm * q +\\n d\"\nlimits = [0, 10]",
+            VariableKind::Prismatic,
+            "5 mm * q + d = 20 mm, outside",
+        ),
+        (
+            "sum = \"q + d/(100 mm)\"\nlimits = [0, 1]",
+            VariableKind::Revolute,
+            "q + d/(100 mm) = 1145.9156°, outside",
+        ),
+    ] {
+        let spec = Spec::parse("lift.toml", &text(limit)).expect("a spec");
+        assert_eq!(spec.sum_limits[0].kind, kind);
+        let found = beyond_sum_limit(&spec.sum_limits[0], 20.0, spec.length);
+        assert!(found.starts_with(shown), "{found}");
+    }
 }

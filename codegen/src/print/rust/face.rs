@@ -83,13 +83,10 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
     let mut list = |name: &str, entries: Vec<(&str, Vec<String>)>| {
         writer.array_of_calls(&format!("{name}: List::Constant(&"), &entries, "),");
     };
+    let kind = |kind: VariableKind| format!("VariableKind::{kind:?}");
     let variable = |indent: usize, variable: &Variable| {
-        let kind = match variable.kind {
-            VariableKind::Revolute => "VariableKind::Revolute",
-            VariableKind::Prismatic => "VariableKind::Prismatic",
-        };
         let (limits, home) = (interval(indent, variable.limits), number(variable.home));
-        vec![quoted(&variable.name), kind.to_owned(), limits, home]
+        vec![quoted(&variable.name), kind(variable.kind), limits, home]
     };
     let frames = spec.frames.iter().zip(lower_pairs(spec)).enumerate().map(|(index, (frame, lower_pair))| {
         let constructor = match lower_pair {
@@ -113,7 +110,10 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
     let sums = spec.sum_limits.iter().map(|limit| {
         let terms = limit.terms.iter().map(|(i, weight)| format!("({i}, {})", number(*weight)));
         let terms = array(entries + 4, "&", &terms.collect::<Vec<_>>(), "");
-        ("SumLimit::new", vec![quoted(&limit.sum), terms, interval(entries + 4, limit.range)])
+        (
+            "SumLimit::new",
+            vec![quoted(&limit.sum), kind(limit.kind), terms, interval(entries + 4, limit.range)],
+        )
     });
     list("sum_limits", sums.collect());
     let parameters = spec.parameters.iter().map(|parameter| {

@@ -81,8 +81,8 @@ fn joints(spec: &Spec) -> Table {
     });
     let sums = spec.sum_limits.iter().map(|limit| {
         let home: Vec<f64> = spec.variables.iter().map(|variable| variable.home).collect();
-        let of_kind = &spec.variables[limit.terms[0].0];
-        let sum = Variable { limits: limit.range, home: limit.value(&home), ..of_kind.clone() };
+        let (limits, home) = (limit.range, limit.value(&home));
+        let sum = Variable { kind: limit.kind, limits, home, ..spec.variables[limit.terms[0].0].clone() };
         let [_, limits, home] = joint(&sum, spec.length);
         [limit.sum.to_string(), "sum".to_owned(), limits, home, String::new()]
     });

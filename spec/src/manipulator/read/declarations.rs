@@ -71,9 +71,11 @@ impl Declarations {
                 if entry.key == "levels" {
                     levels = read;
                 }
-                if !(range[0]..=range[1]).contains(&value) {
-                    let message = format!("the value of `{}` is outside its {}", item.key, entry.key);
-                    let help = format!("widen the {} or change the value", entry.key);
+                let is_used = levels.is_empty() || levels.contains(&value);
+                if !is_used || !(range[0]..=range[1]).contains(&value) {
+                    let place = if levels.is_empty() { "outside its range" } else { "not among its levels" };
+                    let message = format!("the value of `{}` is {place}", item.key);
+                    let help = format!("change the {} or the value", entry.key);
                     let mistake = Diagnostic::new(entry.span(), message);
                     document.mistake(mistake.label(format!("the value is {value}")).help(help));
                 }
@@ -109,6 +111,7 @@ impl Declarations {
                 let levels = items.iter().map(|one| document.constant(one, &self.scope, entry));
                 let mut levels: Vec<f64> = levels.map(|read| Some(read?.0)).collect::<Option<_>>()?;
                 levels.sort_by(f64::total_cmp);
+                levels.dedup();
                 if levels.is_empty() {
                     return document.refuse(item.span(), "`levels` has no values", "give at least one value");
                 }

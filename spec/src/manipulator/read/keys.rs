@@ -59,7 +59,7 @@ crate::tables! {
     INPUT: ["[inputs.NAME]"], [
         "value": NUMBER, "length unit, rad or 1; others must be written", "required", "Nominal value";
         "range": List("two numbers", Some(2), &NUMBER), "as `value`", "no limits", "Lower and upper limit";
-        "levels": List("numbers", None, &NUMBER), "as `value`", "any value in the range", "Values that are used, such as payloads of 0 and 8 kg: studies and plans take no others";
+        "levels": List("numbers", None, &NUMBER), "as `value`", "any value in the range", "Values that are used, such as payloads of 0 and 8 kg: samples, and studies and plans that name no others, take these alone";
         "uncertainty": Number("number, positive"), "as `value`", "none: the value is exact",
             "Standard uncertainty of the value in use, such as that of a load cell: a normal random source named `uncertainty of NAME`";
         "description": Text("text"), "-", "empty", "Description of the input, for people";

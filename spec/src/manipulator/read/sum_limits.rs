@@ -1,12 +1,16 @@
 //! Limits of sums of joint variables.
 
-use abbe_core::SumLimit;
+use abbe_core::{SumLimit, VariableKind};
 
 use super::declarations::Declarations;
 use super::keys;
+use crate::degrees::check_angle_item;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Symbol};
+
+/// Maximum number of limits.
+const MOST: usize = 100;
 
 /// Reads the `[[limit]]` tables.
 pub(super) fn read_sum_limits(
@@ -14,7 +18,11 @@ pub(super) fn read_sum_limits(
     declarations: &Declarations,
     document: &mut Document,
 ) -> Vec<SumLimit> {
-    let items = root.get("limit").and_then(|item| document.array_of_tables(&item, "limit"));
+    let items = root.get("limit").and_then(|item| {
+        let items = document.array_of_tables(&item, "limit")?;
+        let help = "keep those that configurations can exceed within the limits of each joint";
+        document.at_most(&item, items.len(), MOST, "limits", help).map(|()| items)
+    });
     let mut limits: Vec<SumLimit> = Vec::new();
     for (index, item) in items.unwrap_or_default().iter().enumerate() {
         let Some(mut section) = document.section(item) else { continue };
@@ -35,11 +43,19 @@ fn read_sum_limit(
     let entry = Entry { dimension: None, what: "the sum", names: Allowed::Geometry };
     let sum = document.expression(&item, &declarations.scope, entry)?;
     let dimension = sum.whole().dimension.unwrap_or(Dimension::NONE);
-    let Some((terms, constant)) = weights(&sum, declarations) else {
+    let Some(terms) = weights(&sum, declarations) else {
         let mistake = Diagnostic::new(item.span(), "a limit needs a sum of joint variables")
-            .label("not driven joints, each times a constant");
+            .label("not driven joints, each times a constant, and nothing else");
         return document.fail(mistake.help("write the sum as `a2 + a3` or `2*x1 - x2`"));
     };
+    let kind = if dimension == Dimension::NONE { VariableKind::Revolute } else { VariableKind::Prismatic };
+    let ends = section.items().filter(|item| item.key != "sum");
+    let ends = ends.flat_map(|item| if item.is_list() { item.list() } else { vec![item] });
+    let of_angles = ends.collect::<Vec<_>>().into_iter().filter(|_| kind == VariableKind::Revolute);
+    let doubted = of_angles.filter(|end| check_angle_item(end, &format!("a limit of `{text}`"), document));
+    if doubted.count() > 0 {
+        return None;
+    }
     let [lower, upper] = match (section.get("limits"), section.get("equals")) {
         (Some(limits), None) => declarations.interval(&limits, dimension, document)?,
         (None, Some(value)) => {
@@ -52,21 +68,22 @@ fn read_sum_limit(
             return document.refuse(section.span.clone(), message, help);
         }
     };
-    let range = [lower - constant, upper - constant];
-    let limit = SumLimit { sum: text.as_str().into(), terms: terms.into_iter().collect(), range };
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let (sum, terms) = (text.as_str().into(), terms.into_iter().collect());
+    let limit = SumLimit { sum, kind, terms, range: [lower, upper] };
     let home: Vec<f64> = declarations.variables.iter().map(|variable| variable.home).collect();
     if !limit.permits(&home) {
         let message = format!("home is outside the limits of `{text}`");
-        let label = format!("the sum is {} at home", limit.value(&home) + constant);
+        let label = format!("the sum is {} at home", limit.value(&home));
         let help = "give the variables a `home` that the limit permits; it is 0 if not given";
         return document.fail(Diagnostic::new(item.span(), message).label(label).help(help));
     }
     Some(limit)
 }
 
-/// Returns the weights of the variables in a linear expression, and its constant; `None` if it is
-/// not linear, or depends on anything else.
-fn weights(sum: &Expression, declarations: &Declarations) -> Option<(Vec<(usize, f64)>, f64)> {
+/// Returns the weights of the variables in a sum; `None` if it is not linear, has a constant, or
+/// depends on anything else.
+fn weights(sum: &Expression, declarations: &Declarations) -> Option<Vec<(usize, f64)>> {
     let mut variables = Vec::new();
     for symbol in sum.symbols() {
         let Symbol::Variable(variable) = symbol else { return None };
@@ -80,18 +97,14 @@ fn weights(sum: &Expression, declarations: &Declarations) -> Option<(Vec<(usize,
             _ => 0.0,
         })
     };
-    let constant = at(&|_| 0.0);
-    let weight = |variable: &usize| (*variable, at(&|other| f64::from(other == *variable)) - constant);
-    let terms = variables.iter().map(weight).filter(|(_, weight)| *weight != 0.0);
-    let terms: Vec<(usize, f64)> = terms.collect();
-    let is_linear = [-1.7, 0.3, 2.9].iter().all(|scale| {
+    let weight = |variable: &usize| (*variable, at(&|other| f64::from(other == *variable)));
+    let terms: Vec<(usize, f64)> =
+        variables.iter().map(weight).filter(|(_, weight)| *weight != 0.0).collect();
+    let is_linear = [-1.7, 0.0, 0.3, 2.9].iter().all(|scale| {
         let value = |variable: usize| scale * (1.0 + 0.37 * variable as f64);
-        let (mut linear, mut size) = (constant, constant.abs());
-        for (variable, weight) in &terms {
-            linear += weight * value(*variable);
-            size += (weight * value(*variable)).abs();
-        }
-        (at(&value) - linear).abs() <= 1e-9 * size
+        let parts = || terms.iter().map(|(variable, weight)| weight * value(*variable));
+        let size: f64 = parts().map(f64::abs).sum();
+        (at(&value) - parts().sum::<f64>()).abs() <= 1e-9 * size
     });
-    (is_linear && !terms.is_empty()).then_some((terms, constant))
+    (is_linear && !terms.is_empty()).then_some(terms)
 }
