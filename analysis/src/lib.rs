@@ -8,6 +8,7 @@
 //! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
 //! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`ErrorDistribution`]: the probability that a tolerance is met; [`Machines`]: the share of machines that meet it everywhere |
 //! | `allocation` | [`Allocator`]: factors of the sources at which a tolerance is kept at least cost |
+//! | `parts` | [`ErrorParts`]: errors of several sources together, in a ball |
 //! | `worst_case` | [`worst_case()`]: the largest error over all signs at one configuration |
 //! | `random` | [`monte_carlo`]: Monte Carlo simulation on the exact chain |
 //!
@@ -43,6 +44,7 @@ mod budget;
 mod identifiable;
 mod measurand;
 mod normal;
+mod parts;
 mod random;
 mod sweep;
 mod uncertainty;
@@ -69,6 +71,7 @@ pub use identifiable::{
 };
 pub use measurand::Measurand;
 pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
+pub use parts::ErrorParts;
 pub use random::{MonteCarlo, Quantile, monte_carlo};
 pub use sweep::{BLOCK, Row, Unevaluated, UnreachableSummary, in_order, in_order_until, sweep};
 pub use uncertainty::{

@@ -176,12 +176,6 @@ pub fn calibration_errors(spec: &Spec, is_measured: bool) -> Vec<Source> {
     parts.into_iter().enumerate().map(source).collect()
 }
 
-/// Returns the index, among the enabled sources, of the first that [`calibration_errors`] added;
-/// they are the last ones. Returns `None` if there are none.
-pub fn first_part(spec: &Spec) -> Option<usize> {
-    spec.enabled_sources().position(Source::is_calibration_error)
-}
-
 /// Returns the spec with the first part of the calibration named as all of it, for reports in which
 /// it stands for all.
 pub fn named_as_one(spec: &Arc<Spec>) -> Arc<Spec> {

@@ -24,7 +24,8 @@ pub fn changed_text(text: &str, unchanged: &Spec, changed: &Spec) -> Option<Stri
             let text = exact_quantity(value, &unit);
             edits.replace(span, if unit.is_empty() { text } else { write::quoted(&text) });
         }
-        for (i, (old, new)) in unchanged.sources.iter().zip(&changed.sources).enumerate() {
+        let sources = unchanged.sources.iter().zip(&changed.sources).enumerate();
+        for (i, (old, new)) in sources.filter(|(i, _)| unchanged.whole(*i) == *i) {
             let changes = [
                 (old.enabled != new.enabled, "enabled", new.enabled.to_string()),
                 (old.scale != new.scale, "scale", new.scale.to_string()),

@@ -181,11 +181,12 @@ impl Changes {
                 | Symbol::Local(_) => {}
             }
         }
-        for &(source, on) in &self.switches {
-            spec.sources[source].enabled = on;
-        }
-        for &(source, factor) in &self.scales {
-            spec.sources[source].scale *= factor;
+        let wholes: Vec<usize> = (0..spec.sources.len()).map(|k| spec.whole(k)).collect();
+        for (source, whole) in spec.sources.iter_mut().zip(wholes) {
+            let switches = self.switches.iter().filter(|(of, _)| *of == whole);
+            switches.for_each(|(_, on)| source.enabled = *on);
+            let scales = self.scales.iter().filter(|(of, _)| *of == whole);
+            scales.for_each(|(_, factor)| source.scale *= factor);
         }
     }
 }
@@ -193,7 +194,7 @@ impl Changes {
 /// Finds a source by name; reports a mistake if there is none.
 fn find_source(document: &mut Document, span: Span, name: &str, spec: &Spec) -> Option<usize> {
     let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
-    find_name(document, span, name, &names, "source")
+    find_name(document, span, name, &names, "source").map(|source| spec.whole(source))
 }
 
 /// Finds a parameter or input by name; reports a mistake if there is none.

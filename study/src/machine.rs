@@ -281,7 +281,7 @@ pub(crate) fn followed_source(spec: &Spec, index: usize) -> Option<usize> {
         _ if is_magnitude_error(source) => {
             spec.sources.iter().position(|other| magnitude_error_name(other) == source.name)
         }
-        _ => Some(index),
+        _ => Some(spec.whole(index)),
     }
 }
 

@@ -7,6 +7,8 @@ use nalgebra::{DMatrix, DVector};
 const STEPS: usize = 100;
 /// Relative residual at which the iteration ends.
 const END: f64 = 1e-13;
+/// Relative excess of a cut that counts as none.
+const HELD: f64 = 1e-11;
 /// Largest step of a logarithm.
 const STEP: f64 = 2.0;
 
@@ -15,6 +17,8 @@ const STEP: f64 = 2.0;
 pub struct ScalableSource {
     /// Indicates that the sign of its errors is known.
     pub is_repeatable: bool,
+    /// Indicates an error with several parts, which may have any direction.
+    pub is_joint: bool,
     /// Index of the source whose factor it has; its own index for most.
     pub follows: usize,
     /// Cost c of the factor 1.
@@ -111,11 +115,33 @@ pub(super) fn minimize(
     }
     let multipliers = whole * multipliers.rows(0, m);
     let pull = slopes.tr_mul(&multipliers);
-    let mut factors: Vec<f64> = sources.iter().map(|source| source.limits[0]).collect();
-    for (pull, k) in pull.iter().zip(free) {
-        let source = &sources[k];
-        let stationary = (source.cost * source.exponent / pull).powf(1.0 / (source.exponent + 1.0));
-        factors[k] = stationary.clamp(source.limits[0], source.limits[1]);
+    let scaled = |scale: f64| {
+        let mut factors: Vec<f64> = sources.iter().map(|source| source.limits[0]).collect();
+        for (pull, k) in pull.iter().zip(&free) {
+            let source = &sources[*k];
+            let stationary =
+                (source.cost * source.exponent / (scale * pull)).powf(1.0 / (source.exponent + 1.0));
+            factors[*k] = stationary.clamp(source.limits[0], source.limits[1]);
+        }
+        factors
+    };
+    // Where an optimal factor is just at its limit, λ is exact to half of the digits: the cuts hold
+    // for slightly larger ones.
+    let exceeds = |scale: f64| {
+        let factors = scaled(scale);
+        cuts.iter()
+            .any(|(_, cut)| cut.iter().zip(&factors).map(|(a, x)| a * x).sum::<f64>() > target * (1.0 + HELD))
+    };
+    let (mut below, mut scale) = (1.0, 1.0);
+    for step in (0..20).map(|k| END * 4.0_f64.powi(k)) {
+        if exceeds(scale) {
+            (below, scale) = (scale, 1.0 + step);
+        }
     }
-    (factors, multipliers.iter().zip(rest).map(|(multiplier, rest)| multiplier / rest).collect())
+    for _ in 0..if scale > 1.0 { 60 } else { 0 } {
+        let middle = f64::midpoint(below, scale);
+        if exceeds(middle) { below = middle } else { scale = middle }
+    }
+    let multipliers = multipliers.iter().zip(rest).map(|(multiplier, rest)| scale * multiplier / rest);
+    (scaled(scale), multipliers.collect())
 }

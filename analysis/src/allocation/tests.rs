@@ -10,7 +10,14 @@ const CRITERIA: [AllocationCriterion; 2] =
     [AllocationCriterion::WorstCase, AllocationCriterion::RootSumOfSquares];
 
 fn source(k: usize) -> ScalableSource {
-    ScalableSource { is_repeatable: false, follows: k, cost: 1.0, exponent: 1.0, limits: [0.001, 1.0] }
+    ScalableSource {
+        is_repeatable: false,
+        is_joint: false,
+        follows: k,
+        cost: 1.0,
+        exponent: 1.0,
+        limits: [0.001, 1.0],
+    }
 }
 
 fn row(errors: Vec<[f64; 3]>) -> ErrorRow {
@@ -25,6 +32,7 @@ fn random_problem(seed: u64, criterion: AllocationCriterion) -> Allocator {
     let mut sources: Vec<ScalableSource> = (0..count)
         .map(|k| ScalableSource {
             is_repeatable: random.random_bool(0.5),
+            is_joint: false,
             cost: random.random_range(0.1..10.0),
             exponent: random.random_range(0.3..3.0),
             ..source(k)
@@ -178,4 +186,16 @@ fn a_tolerance_that_is_kept_changes_nothing() {
         problem.rows.push(row(vec![[0.3, 0.0, 0.0], [0.0, 0.4, 0.0]]));
         assert_eq!(problem.solve().unwrap().factors, [1.0, 1.0]);
     }
+}
+
+/// An optimal factor of exactly 1, and a ball: `0.1 x_1 + 0.4 x_2 = 0.3` with the least `1/x_1 +
+/// 1/x_2` at 1 and 1/2, wherever the errors point.
+#[test]
+fn a_factor_just_at_its_limit_is_found() {
+    let sources = vec![source(0), ScalableSource { is_joint: true, ..source(1) }];
+    let mut problem = Allocator::new(AllocationCriterion::WorstCase, sources);
+    problem.rows.push(row(vec![[0.0, 1.0 / 3.0, 0.0], [4.0 / 3.0, 0.0, 0.0]]));
+    let Allocation { factors, residual, .. } = problem.solve().unwrap();
+    assert!((factors[0] - 1.0).abs() < 1e-5 && (factors[1] - 0.5).abs() < 1e-5, "{factors:?}");
+    assert!(residual < 1e-9, "{residual}");
 }

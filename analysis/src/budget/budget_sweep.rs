@@ -4,11 +4,11 @@ use core::ops::{ControlFlow, Range};
 
 use super::partial_budget::PartialBudget;
 use super::partial_errors::{self, InitialErrors, PartialErrors, SampleErrors};
+use super::sums::SourceKinds;
 use super::{Budget, BudgetOptions, OrientationErrors, Watch};
 use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
 use crate::{Measurand, ReachError, Subset, Workspace};
 use abbe_core::lanes::{InstructionSet, Kernel, Register, Sweepable};
-use abbe_core::{Class, Source};
 use abbe_kinematics::One;
 
 /// Smallest and largest number of configurations from which the ellipsoid is
@@ -56,7 +56,7 @@ pub fn error_budget(
 pub struct BudgetSweep<'a> {
     manipulator: &'a dyn Sweepable,
     workspace: &'a dyn Workspace,
-    classes: Vec<Class>,
+    sources: usize,
     position: InitialErrors,
     orientation: InitialErrors,
     oriented_at_home: bool,
@@ -90,16 +90,14 @@ impl<'a> BudgetSweep<'a> {
         let _ = sweep(manipulator, &Subset { workspace, count }, &mut |row| {
             sample.iter_mut().for_each(|sample| sample.add(known, row));
         });
-        let classes = known.iter().map(|source| source.class).collect::<Vec<_>>();
-        let calibration = known.iter().position(Source::is_calibration).unwrap_or(known.len());
-        let known = (&classes[..], calibration);
+        let (sources, kinds) = (known.len(), SourceKinds::new(manipulator.description()));
         let [first, second] = sample;
         Ok(Self {
             manipulator,
             workspace,
-            position: first.finish(known, &home, options.tolerances[0]),
-            orientation: second.finish(known, &home, options.tolerances[1]),
-            classes,
+            position: first.finish(&kinds, &home, options.tolerances[0]),
+            orientation: second.finish(&kinds, &home, options.tolerances[1]),
+            sources,
             oriented_at_home,
             chunk: (workspace.len() / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK) * BLOCK,
         })
@@ -142,7 +140,7 @@ impl<'a> BudgetSweep<'a> {
     pub fn fits(&self, part: &PartialBudget) -> bool {
         let PartialBudget { chunks, position, orientation, configurations, oriented, unreachable } = part;
         let description = self.manipulator.description();
-        let sources = self.classes.len();
+        let sources = self.sources;
         let mut indices = [position, orientation].into_iter().flat_map(PartialErrors::indices);
         chunks.start <= chunks.end
             && chunks.end <= self.chunks()
@@ -176,7 +174,7 @@ impl<'a> BudgetSweep<'a> {
     }
 
     fn none(&self, chunk: usize) -> PartialBudget {
-        PartialBudget::none(chunk, self.classes.len())
+        PartialBudget::none(chunk, self.sources)
     }
 }
 

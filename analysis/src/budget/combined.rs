@@ -3,9 +3,9 @@
 use super::Ellipsoid;
 use super::over_signs::OverSignsAccumulator;
 use super::peak::{self, Peak};
-use super::sums::Sums;
+use super::sums::{SourceKinds, Sums};
+use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
-use abbe_core::{Class, Scalar};
 
 /// Largest value over the workspace, and its configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -123,7 +123,7 @@ pub(super) struct CombinedAccumulator<R: Register> {
 
 impl<R: Register> CombinedAccumulator<R> {
     /// Initializes the accumulation with the ellipsoid of a sample of configurations.
-    pub(super) fn new(ellipsoid: Ellipsoid, classes: &[Class]) -> Self {
+    pub(super) fn new(ellipsoid: Ellipsoid, kinds: &SourceKinds) -> Self {
         let zero = Lanes::constant(0.0);
         Self {
             ellipsoid,
@@ -131,7 +131,7 @@ impl<R: Register> CombinedAccumulator<R> {
             random_square: Peak::none(),
             radius: Peak::none(),
             trace: Peak::none(),
-            over_signs: OverSignsAccumulator::new(classes),
+            over_signs: OverSignsAccumulator::new(kinds),
             repeatable: [zero; 3],
             random: [zero; 3],
             variance: [zero; 3],

@@ -1,10 +1,10 @@
 //! The worst case over all signs: `max ‖Σ r + Σ ± b_k‖`.
 
 use super::peak::{self, Peak};
-use super::sums::{Sums, plus};
+use super::sums::{SourceKinds, Sums, plus};
 use crate::worst_case;
+use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
-use abbe_core::{Class, Scalar};
 use abbe_kinematics::sampling::norm;
 
 /// Largest number of sources of unknown sign for which all pairs are tried in lanes.
@@ -16,7 +16,7 @@ const PAIRS: usize = 32;
 /// shows that their worst case is not the largest. At the others it is determined as
 /// [`worst_case`](crate::worst_case()) does it, by all pairs of sources.
 pub(super) struct OverSignsAccumulator<R: Register> {
-    /// First rows of the sources of unknown sign before the calibration, and what makes them
+    /// First rows of the sources of unknown sign that are errors of their own, and what makes them
     /// distinct.
     unknown: Vec<(usize, [f64; 3])>,
     found: Peak<R>,
@@ -28,9 +28,10 @@ pub(super) struct OverSignsAccumulator<R: Register> {
 }
 
 impl<R: Register> OverSignsAccumulator<R> {
-    /// Creates the accumulator for the sources before a calibration.
-    pub(super) fn new(classes: &[Class]) -> Self {
-        let unknown = classes.iter().enumerate().filter(|(_, class)| class.distribution().is_some());
+    /// Creates the accumulator for sources.
+    pub(super) fn new(SourceKinds { classes, is_part, .. }: &SourceKinds) -> Self {
+        let unknown = classes.iter().enumerate();
+        let unknown = unknown.filter(|(k, class)| class.distribution().is_some() && !is_part[*k]);
         let unknown: Vec<(usize, [f64; 3])> =
             unknown.enumerate().map(|(n, (k, _))| (6 * k, worst_case::apart(n))).collect();
         // A pair, at least.
@@ -42,13 +43,13 @@ impl<R: Register> OverSignsAccumulator<R> {
     #[inline(always)]
     pub(super) fn add(&mut self, rows: &[Lanes<R>], sums: &Sums<R>) {
         let simple = sums.repeatable_norm + sums.random_norms;
-        let bound = (peak::square(sums.worst_case).sqrt() + sums.calibration).min(simple);
+        let bound = (peak::square(sums.worst_case).sqrt() + sums.joint).min(simple);
         if self.unknown.is_empty() {
             self.found.add(simple, sums.place);
         } else if peak::largest(bound) > self.most {
             let longest =
                 if self.unknown.len() > PAIRS { self.apart(rows, sums) } else { self.pairs(rows, sums) };
-            let worst = longest + sums.calibration;
+            let worst = longest + sums.joint;
             self.most = self.most.max(peak::largest(worst));
             self.found.add(worst, sums.place);
         }

@@ -6,11 +6,11 @@ use super::aligned_sums::AlignedSums;
 use super::combined;
 use super::least_likely::{self, LeastLikely};
 use super::source_errors::{self, PartialSourceErrors};
-use super::sums::Sums;
+use super::sums::{SourceKinds, Sums};
 use super::{Combined, Ellipsoid, SourceErrors, covariance};
 use crate::{Measurand, Row};
 use abbe_core::lanes::{Lanes, Register, Tiles};
-use abbe_core::{Class, Scalar, Source};
+use abbe_core::{Scalar, Source};
 
 /// Figures of a sample of configurations, before the sweep over all of them.
 pub(super) struct SampleErrors {
@@ -37,7 +37,7 @@ impl SampleErrors {
     /// Returns the initial values of every chunk of a workspace.
     pub(super) fn finish(
         self,
-        (classes, calibration): (&[Class], usize),
+        kinds: &SourceKinds,
         home: &[[f64; 6]],
         tolerance: Option<f64>,
     ) -> InitialErrors {
@@ -48,8 +48,7 @@ impl SampleErrors {
         InitialErrors {
             measurand,
             tolerance,
-            classes: classes.to_vec(),
-            calibration,
+            kinds: kinds.clone(),
             home: home.iter().map(|error| measurand.rows(error)).collect(),
             ellipsoid,
         }
@@ -60,9 +59,7 @@ impl SampleErrors {
 pub(super) struct InitialErrors {
     measurand: Measurand,
     tolerance: Option<f64>,
-    classes: Vec<Class>,
-    /// Number of sources before the parts of a calibration.
-    calibration: usize,
+    kinds: SourceKinds,
     home: Vec<[f64; 3]>,
     ellipsoid: Ellipsoid,
 }
@@ -107,10 +104,10 @@ impl PartialErrors {
         count: usize,
     ) -> (Vec<SourceErrors>, Combined, Vec<usize>) {
         let mut squares = self.squares.total();
-        squares.resize(initial.classes.len() + 3, 0.0);
-        let (alone, together) = squares.split_at(initial.classes.len());
+        squares.resize(initial.kinds.classes.len() + 3, 0.0);
+        let (alone, together) = squares.split_at(initial.kinds.classes.len());
         let sources = self.tallies.into_iter().enumerate().map(|(i, errors)| {
-            let (class, home) = (initial.classes[i], initial.home[i]);
+            let (class, home) = (initial.kinds.classes[i], initial.home[i]);
             errors.finish(i, class, home, alone[i] / count.max(1) as f64)
         });
         let rms = |i: usize| (together[i] / count.max(1) as f64).sqrt();
@@ -141,15 +138,16 @@ pub(super) struct ErrorsAccumulator<R: Register> {
 
 impl<R: Register> ErrorsAccumulator<R> {
     pub(super) fn new(initial: &InitialErrors) -> Self {
-        let InitialErrors { measurand, tolerance, classes, calibration, home, ellipsoid } = initial;
-        let singles = classes
+        let InitialErrors { measurand, tolerance, kinds, home, ellipsoid } = initial;
+        let singles = kinds
+            .classes
             .iter()
             .zip(home)
             .map(|(class, home)| source_errors::SourceErrorsAccumulator::new(*class, *home));
         Self {
             measurand: *measurand,
             singles: singles.collect(),
-            all: combined::CombinedAccumulator::new(*ellipsoid, &classes[..*calibration]),
+            all: combined::CombinedAccumulator::new(*ellipsoid, kinds),
             least_likely: tolerance.map(least_likely::LeastLikelyAccumulator::new),
         }
     }
@@ -184,7 +182,7 @@ impl<R: Register> ErrorsAccumulator<R> {
         let rows = displacements.tile::<R>(tile);
         // Without sources there are no rows.
         let rows = rows.get(self.measurand.first()..).unwrap_or_default();
-        let sums = Sums::new(&initial.classes, initial.calibration, rows, place, weight);
+        let sums = Sums::new(&initial.kinds, rows, place, weight);
         self.all.add(&sums, rows, &index);
         if let Some(least_likely) = &mut self.least_likely {
             least_likely.add(&sums, index);

@@ -1,8 +1,9 @@
 //! Combined errors of all sources at the configurations of one tile.
 
 use super::{peak, variance};
+use crate::parts::{self, ErrorParts};
 use abbe_core::lanes::{Lanes, Register};
-use abbe_core::{Class, Scalar};
+use abbe_core::{Class, Description, Scalar};
 
 /// Combined errors of all sources at the configurations of one tile, in three rows.
 pub(super) struct Sums<R: Register> {
@@ -20,40 +21,38 @@ pub(super) struct Sums<R: Register> {
     pub(super) random_norm: Lanes<R>,
     /// ‖Σ r‖ + √Σ b².
     pub(super) radius: Lanes<R>,
-    /// `|Σ r| + Σ |b|` row by row, and `Σ ‖b‖`; with the parts of a calibration as one error.
+    /// `|Σ r| + Σ |b|` row by row, and `Σ ‖b‖`; with the parts of an error as one.
     pub(super) worst_case: [Lanes<R>; 3],
     pub(super) random_norms: Lanes<R>,
-    /// Norm of the error of the calibration.
-    pub(super) calibration: Lanes<R>,
+    /// Σ of the largest norms of errors with several parts.
+    pub(super) joint: Lanes<R>,
     /// `Σ c b bᵀ` of the random sources: xx, yy, zz, xy, xz, yz.
     pub(super) covariance: [Lanes<R>; 6],
 }
 
 impl<R: Register> Sums<R> {
     /// Combines the rows of a tile, beginning with the first of the three rows of the first source,
-    /// with six rows per source. The sources from `calibration` on are the parts of one.
+    /// with six rows per source.
     #[inline(always)]
     pub(super) fn new(
-        classes: &[Class],
-        calibration: usize,
+        SourceKinds { classes, joint: groups, is_part }: &SourceKinds,
         rows: &[Lanes<R>],
         place: Lanes<R>,
         weight: Lanes<R>,
     ) -> Self {
         let zero = Lanes::constant(0.0);
         let (mut repeatable, mut squares, mut worst_case) = ([zero; 3], [zero; 3], [zero; 3]);
-        let (mut random_norms, mut covariance, mut parts) = (zero, [zero; 6], [zero; 3]);
+        let (mut random_norms, mut covariance, mut random_square) = (zero, [zero; 6], zero);
         for (k, (class, rows)) in classes.iter().zip(rows.chunks(6)).enumerate() {
             let here = [rows[0], rows[1], rows[2]];
             let [x, y, z] = here;
             match class {
                 Class::Repeatable => repeatable = plus(repeatable, here),
                 Class::Tolerance(distribution) | Class::Random(distribution) => {
-                    if k < calibration {
+                    if !is_part[k] {
                         random_norms = random_norms + peak::square(here).sqrt();
+                        random_square = random_square + peak::square(here);
                         worst_case = plus(worst_case, [x.abs(), y.abs(), z.abs()]);
-                    } else {
-                        parts = [x.mul_add(x, parts[0]), y.mul_add(y, parts[1]), z.mul_add(z, parts[2])];
                     }
                     squares = [x.mul_add(x, squares[0]), y.mul_add(y, squares[1]), z.mul_add(z, squares[2])];
                     let variance = Lanes::constant(variance(*distribution));
@@ -70,12 +69,15 @@ impl<R: Register> Sums<R> {
                 }
             }
         }
-        let calibration = (parts[0] + parts[1] + parts[2]).sqrt();
+        let mut joint = zero;
+        for parts in groups {
+            let (along, norm) = joint_error(parts, rows);
+            (joint, random_square) = (joint + norm, norm.mul_add(norm, random_square));
+            worst_case = plus(worst_case, along);
+        }
         let [x, y, z] = repeatable;
         worst_case = plus(worst_case, [x.abs(), y.abs(), z.abs()]);
-        worst_case = plus(worst_case, [parts[0].sqrt(), parts[1].sqrt(), parts[2].sqrt()]);
         let repeatable_square = peak::square(repeatable);
-        let random_square = squares[0] + squares[1] + squares[2];
         let (repeatable_norm, random_norm) = (repeatable_square.sqrt(), random_square.sqrt());
         Self {
             place,
@@ -88,11 +90,42 @@ impl<R: Register> Sums<R> {
             random_norm,
             radius: repeatable_norm + random_norm,
             worst_case,
-            random_norms: random_norms + calibration,
-            calibration,
+            random_norms: random_norms + joint,
+            joint,
             covariance,
         }
     }
+}
+
+/// Classes of the sources, and which of them are parts of one error.
+#[derive(Clone, Debug)]
+pub(super) struct SourceKinds {
+    pub(super) classes: Vec<Class>,
+    /// Sources of each error with several parts.
+    pub(super) joint: Vec<Vec<usize>>,
+    pub(super) is_part: Vec<bool>,
+}
+
+impl SourceKinds {
+    pub(super) fn new(description: &Description) -> Self {
+        let parts = ErrorParts::new(description);
+        let joint: Vec<Vec<usize>> = parts.joint().map(<[usize]>::to_vec).collect();
+        let is_part = |k: usize| joint.iter().any(|parts| parts.contains(&k));
+        let is_part = (0..description.sources.len()).map(is_part).collect();
+        Self { classes: description.sources.iter().map(|source| source.class).collect(), joint, is_part }
+    }
+}
+
+/// Returns the largest values along the rows and the largest norm of an error with several parts.
+#[cold]
+#[inline(never)]
+fn joint_error<R: Register>(parts: &[usize], rows: &[Lanes<R>]) -> ([Lanes<R>; 3], Lanes<R>) {
+    let at = |lane: usize| {
+        let part = |k: &usize| [0, 1, 2].map(|row| rows[6 * k + row].to_slice()[lane]);
+        parts::outer_sum(parts.iter().map(part))
+    };
+    let along = [0, 1, 2].map(|row| Lanes::from_fn(|lane| at(lane)[row][row].sqrt()));
+    (along, Lanes::from_fn(|lane| parts::longest(at(lane))))
 }
 
 #[inline(always)]

@@ -2,10 +2,10 @@
 
 use super::Quantile;
 use crate::sweep::in_order;
-use crate::{Configuration, Ellipsoid, Measurand, Sweepable, Unevaluated, covariance, sweep};
+use crate::{Configuration, Ellipsoid, ErrorParts, Measurand, Sweepable, Unevaluated, covariance, sweep};
 use abbe_core::{Error, Pose, deviation, drawn_pose, repeatable_magnitudes};
 use abbe_kinematics::One;
-use abbe_kinematics::sampling::{draw, norm, stream};
+use abbe_kinematics::sampling::{norm, stream};
 
 /// Number of draws per stream of random numbers and per block.
 const DRAWS: usize = 4096;
@@ -67,6 +67,7 @@ pub fn monte_carlo(
         Ok::<_, Error>(Measurand::Position.rows(&deviation(description.orientation, &ideal, &real)))
     };
     let without_random = error(&repeatable_magnitudes(description))?;
+    let parts = ErrorParts::new(description);
     let ellipsoid = Ellipsoid::new(first_order, 0);
     let flat = ellipsoid.rank() < 3;
     let mut sums = Sums::default();
@@ -75,12 +76,12 @@ pub fn monte_carlo(
         draws.div_ceil(DRAWS),
         |block| {
             let mut random = stream(seed, block);
-            let mut magnitudes = vec![0.0; description.sources.len()];
+            let mut magnitudes = vec![1.0; description.sources.len()];
             let (mut sums, mut norms) = (Sums::default(), Vec::with_capacity(DRAWS));
             for _ in block * DRAWS..draws.min((block + 1) * DRAWS) {
-                for (source, magnitude) in description.sources.iter().zip(&mut magnitudes) {
-                    let drawn = source.class.distribution();
-                    *magnitude = drawn.map_or(1.0, |distribution| draw(distribution, &mut random));
+                for (k, source) in description.sources.iter().enumerate() {
+                    let Some(distribution) = source.class.distribution() else { continue };
+                    parts.draw(k, distribution, &mut random, |part, drawn| magnitudes[part] = drawn);
                 }
                 let error = error(&magnitudes)?;
                 norms.push(norm(error));

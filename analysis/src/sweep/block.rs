@@ -4,7 +4,7 @@ use core::ops::Range;
 use std::borrow::Cow;
 
 use super::{Row, Unevaluated};
-use crate::{Configuration, ReachError, Unreachable, Workspace};
+use crate::{Configuration, ErrorParts, Measurand, ReachError, Unreachable, Workspace};
 use abbe_core::lanes::Sweepable;
 use abbe_core::lanes::{InstructionSet, Kernel, Lanes, Register, Tiles};
 use abbe_core::{Class, Error, Function, MINIMUM_MARGIN, Orientation, Pose, Quantity, Scalar, checks};
@@ -15,6 +15,7 @@ pub(crate) struct Block<'a> {
     workspace: &'a dyn Workspace,
     /// Factors of the displacements of every source.
     bounds: Vec<f64>,
+    parts: ErrorParts,
     /// Index in the workspace of every reachable configuration.
     pub(crate) indices: Vec<usize>,
     arguments: Tiles,
@@ -42,6 +43,7 @@ impl<'a> Block<'a> {
             manipulator,
             workspace,
             bounds: bounds.collect(),
+            parts: ErrorParts::new(description),
             indices: Vec::with_capacity(size),
             arguments,
             displacements: Tiles::new(set, signature.results_len(description), size),
@@ -242,9 +244,26 @@ impl<'a> Block<'a> {
                     }
                 }
             }
-            let random = squares.map(f64::sqrt);
-            let oriented = self.is_oriented(place);
-            visit(&Row { index, configuration: here, pose, oriented, sources: &sources, repeatable, random });
+            let random_norms = Measurand::ALL.map(|measurand| {
+                let excess = |parts: &[usize]| {
+                    let ([x, y, z], norm) = self.parts.largest(parts[0], &sources, measurand);
+                    x * x + y * y + z * z - norm * norm
+                };
+                let rows = measurand.rows(&squares).iter().sum::<f64>();
+                (rows - self.parts.joint().map(excess).sum::<f64>()).max(0.0).sqrt()
+            });
+            let (random, oriented) = (squares.map(f64::sqrt), self.is_oriented(place));
+            let sources = &sources[..];
+            visit(&Row {
+                index,
+                configuration: here,
+                pose,
+                oriented,
+                sources,
+                repeatable,
+                random,
+                random_norms,
+            });
         }
     }
 }

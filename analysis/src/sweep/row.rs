@@ -46,4 +46,7 @@ pub struct Row<'a> {
     pub repeatable: [f64; 6],
     /// Root sum of squares of the random sources, row by row.
     pub random: [f64; 6],
+    /// Root sum of squares of their norms, of rows 1–3 and of rows 4–6. An error with several parts
+    /// has its largest norm, less than the norm of its largest rows.
+    pub random_norms: [f64; 2],
 }

@@ -57,6 +57,7 @@ fn covariance_is_that_of_the_error_jacobian() {
                     Distribution::Normal => 1.0,
                     Distribution::Triangular => 1.0 / 6_f64.sqrt(),
                     Distribution::Arcsine => 0.5_f64.sqrt(),
+                    Distribution::Ball { .. } => unreachable!("no error of the paper is one"),
                 },
             };
             let mut column = DVector::<f64>::zeros(columns.len());

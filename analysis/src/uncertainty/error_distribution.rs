@@ -6,6 +6,7 @@ use rand_distr::StandardNormal;
 use super::correction::{Correction, Residual};
 use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
 use crate::normal::{NormalVector, ONE_SIDED_95, PROBABILITY_ERROR};
+use crate::parts::{longest, outer_sum};
 use crate::sweep::in_order;
 use crate::{Measurand, worst_case};
 use abbe_core::{Class, Description};
@@ -82,7 +83,7 @@ impl ErrorDistribution {
             return all;
         }
         for (k, (source, error)) in description.sources.iter().zip(sources).enumerate() {
-            if !source.class.can_be_compensated() {
+            if !source.class.can_be_compensated() || description.whole(k) != k {
                 continue;
             }
             let error = measurand.rows(error);
@@ -102,14 +103,12 @@ impl ErrorDistribution {
                     all.fixed.push((k, error));
                 }
                 (Some(Residual::Share(share)), _) => {
-                    for one in all.random.iter_mut().filter(|one| one.source == k) {
-                        one.magnitude = one.magnitude.map(|row| share * row);
-                    }
+                    all.random.iter_mut().filter(|one| one.source == k).for_each(|one| one.scale(share));
                 }
                 _ => {}
             }
         }
-        all.random.retain(|one| one.magnitude != [0.0; 3]);
+        all.random.retain(RandomError::is_there);
         all.signed.retain(|(_, error)| *error != [0.0; 3]);
         all
     }
@@ -127,21 +126,21 @@ impl ErrorDistribution {
     /// Returns `‖bias‖ + √(Σ ρ²) + √(Σ b²)` with the bounds b of the random sources, as the paper
     /// adds them.
     pub fn radius(&self) -> f64 {
-        self.repeatable_radius() + root_sum_of_squares(self.bounds())
+        self.repeatable_radius() + root_sum_of_squares(self.bounds().map(|(_, bound)| bound))
     }
 
     /// Returns the largest error over all signs, `max ‖bias + Σ ± ρ + Σ ± b‖`, with residuals of
-    /// unknown direction and the parts of a calibration, together one error, in its direction.
+    /// unknown direction, balls, and the calibration at their largest norms in its direction.
     pub fn worst_case(&self) -> WorstCase {
-        let random = self.random.iter().filter(|one| !one.is_calibration);
-        let random = random.map(|one| (one.source, one.magnitude.map(|row| one.distribution.bound() * row)));
+        let random = self.random.iter().filter(|one| !one.is_calibration && !one.is_joint());
+        let random = random.map(|one| (one.source, one.at([one.distribution.bound(), 0.0, 0.0])));
         let unknown: Vec<(usize, [f64; 3])> = random.chain(self.signed.iter().copied()).collect();
         let vectors: Vec<[f64; 3]> = unknown.iter().map(|(_, vector)| *vector).collect();
-        let parts = || self.random.iter().filter(|one| one.is_calibration);
-        let calibration = root_sum_of_squares(parts().map(|one| one.bound()));
-        let calibration = parts().next().map(|one| (Some(one.source), calibration));
         let longest = worst_case(self.bias, &vectors);
-        let undirected = || self.undirected.iter().copied().chain(calibration);
+        let joint =
+            self.random.iter().filter(|one| one.is_joint()).map(|one| (Some(one.source), one.bound()));
+        let joint: Vec<(Option<usize>, f64)> = joint.chain(self.calibration()).collect();
+        let undirected = || self.undirected.iter().copied().chain(joint.iter().copied());
         let norm = norm(longest) + undirected().map(|(_, norm)| norm).sum::<f64>();
         let along = |v: [f64; 3]| (0..3).map(|i| longest[i] * v[i]).sum::<f64>() / self::norm(longest) / norm;
         let fixed = self.fixed.iter().map(|(source, v)| (*source, along(*v)));
@@ -149,6 +148,13 @@ impl ErrorDistribution {
         let others = undirected().filter_map(|(source, length)| Some((source?, length / norm)));
         let shares = fixed.chain(unknown).chain(others);
         WorstCase { norm, shares: shares.filter(|(_, share)| share.is_finite()).collect() }
+    }
+
+    /// Returns the first source of the calibration, and its largest norm.
+    fn calibration(&self) -> Option<(Option<usize>, f64)> {
+        let parts = || self.random.iter().filter(|one| one.is_calibration);
+        let at_bound = parts().map(|one| one.at([one.distribution.bound(), 0.0, 0.0]));
+        Some((Some(parts().next()?.source), longest(outer_sum(at_bound))))
     }
 
     /// Returns the share of each source with a nonzero effect in the [`radius`](Self::radius), to
@@ -162,15 +168,15 @@ impl ErrorDistribution {
         let signed = self.signed.iter().map(|(source, v)| (*source, of(left, norm(*v))));
         let undirected = self.undirected.iter();
         let undirected = undirected.filter_map(|(source, norm)| Some(((*source)?, of(left, *norm))));
-        let bounds = root_sum_of_squares(self.bounds());
-        let random = self.random.iter().map(|one| (one.source, of(bounds, one.bound())));
+        let bounds = root_sum_of_squares(self.bounds().map(|(_, bound)| bound));
+        let random = self.bounds().map(|(source, bound)| (source, of(bounds, bound)));
         let shares = fixed.chain(signed).chain(undirected).chain(random);
         shares.filter(|(_, share)| share.is_finite()).collect()
     }
 
     /// Returns `‖bias‖ + Σ ρ + Σ ‖b‖`, an upper bound of the worst case.
     pub fn simple_bound(&self) -> f64 {
-        norm(self.bias) + self.residuals().sum::<f64>() + self.bounds().sum::<f64>()
+        norm(self.bias) + self.residuals().sum::<f64>() + self.bounds().map(|(_, bound)| bound).sum::<f64>()
     }
 
     /// Returns whether no source is unbounded.
@@ -237,8 +243,7 @@ impl ErrorDistribution {
     fn draw(&self, numbers: &mut impl Rng) -> [f64; 3] {
         let mut error = self.bias;
         for one in &self.random {
-            let t = one.draw(numbers);
-            error = core::array::from_fn(|i| error[i] + t * one.magnitude[i]);
+            error = sum_of(error, [one.at(one.draw(numbers))]);
         }
         for (_, residual) in &self.signed {
             let sign = if numbers.random::<bool>() { 1.0 } else { -1.0 };
@@ -271,8 +276,12 @@ impl ErrorDistribution {
         self.signed.iter().map(|(_, error)| norm(*error)).chain(undirected)
     }
 
-    fn bounds(&self) -> impl Iterator<Item = f64> {
-        self.random.iter().map(RandomError::bound)
+    /// Iterates over the sources of random errors and their largest norms, with a calibration as
+    /// one.
+    fn bounds(&self) -> impl Iterator<Item = (usize, f64)> {
+        let others = self.random.iter().filter(|one| !one.is_calibration);
+        let calibration = self.calibration().and_then(|(source, norm)| Some((source?, norm)));
+        others.map(|one| (one.source, one.bound())).chain(calibration)
     }
 }
 

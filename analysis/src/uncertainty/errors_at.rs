@@ -3,12 +3,13 @@
 use rand::{Rng, RngExt};
 use rand_distr::StudentT;
 
+use crate::parts::{longest, outer_sum};
 use crate::sweep::sweep;
 use crate::{Configuration, Measurand, Unevaluated};
 use abbe_core::lanes::Sweepable;
 use abbe_core::{Class, Description, Distribution, Error};
 use abbe_kinematics::One;
-use abbe_kinematics::sampling::{draw, norm};
+use abbe_kinematics::sampling::{draw_parts, norm};
 
 /// Errors of every source at one configuration, to first order.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,19 +62,27 @@ pub(super) fn random(
     measurand: Measurand,
 ) -> Vec<RandomError> {
     let sources = description.sources.iter().zip(sources).enumerate();
-    let random = sources.filter_map(|(source, (one, bound))| {
-        let distribution = one.class.distribution()?;
+    let mut random: Vec<RandomError> = Vec::new();
+    for (source, (one, bound)) in sources {
+        let Some(distribution) = one.class.distribution() else { continue };
         let magnitude = measurand.rows(bound).map(|b| b / distribution.bound());
-        (magnitude != [0.0; 3]).then_some(RandomError {
+        if let Distribution::Ball { part: part @ 1.., .. } = distribution {
+            let whole = description.whole(source);
+            let ball = random.iter_mut().find(|other| other.source == whole);
+            ball.expect("the first part of a ball is before the others").parts[usize::from(part)] = magnitude;
+            continue;
+        }
+        random.push(RandomError {
             source,
             distribution,
             degrees_of_freedom: one.degrees_of_freedom,
             is_calibration: one.is_calibration(),
             is_of_machine: one.class.can_be_compensated() || one.is_calibration(),
-            magnitude,
-        })
-    });
-    random.collect()
+            parts: [magnitude, [0.0; 3], [0.0; 3]],
+        });
+    }
+    random.retain(RandomError::is_there);
+    random
 }
 
 /// Random source at a configuration.
@@ -87,8 +96,9 @@ pub(super) struct RandomError {
     pub(super) is_calibration: bool,
     /// Marks an error with one value in each machine: a tolerance, or that of a calibration.
     pub(super) is_of_machine: bool,
-    /// ΔX for an error equal to its magnitude. The three rows are fully correlated.
-    pub(super) magnitude: [f64; 3],
+    /// ΔX for an error equal to its magnitude, of which the three rows are fully correlated; those
+    /// of all parts of a ball or disc, otherwise of one.
+    pub(super) parts: [[f64; 3]; 3],
 }
 
 impl RandomError {
@@ -97,23 +107,52 @@ impl RandomError {
         self.degrees_of_freedom.is_finite()
     }
 
-    /// Returns the norm of ΔX at its bound.
-    pub(super) fn bound(&self) -> f64 {
-        self.distribution.bound() * norm(self.magnitude)
+    /// Returns whether it has a nonzero effect.
+    pub(super) fn is_there(&self) -> bool {
+        self.parts != [[0.0; 3]; 3]
     }
 
-    /// Draws its size. An error with an estimated standard deviation has Student's t-distribution
-    /// (JCGM 101, 6.4.9).
-    pub(super) fn draw(&self, random: &mut impl Rng) -> f64 {
-        match StudentT::new(self.degrees_of_freedom) {
-            Ok(student) if self.is_estimated() => random.sample(student),
-            _ => draw(self.distribution, random),
+    /// Returns whether it has several parts, and no direction of its own.
+    pub(super) fn is_joint(&self) -> bool {
+        matches!(self.distribution, Distribution::Ball { .. })
+    }
+
+    /// Returns the largest norm of ΔX at its bound.
+    pub(super) fn bound(&self) -> f64 {
+        match self.is_joint() {
+            true => longest(outer_sum(self.parts.into_iter())),
+            false => self.distribution.bound() * norm(self.parts[0]),
         }
     }
 
-    /// Returns the standard uncertainties along the rows, with the sign of ΔX.
+    /// Draws its size, of each part. An error with an estimated standard deviation has Student's
+    /// t-distribution (JCGM 101, 6.4.9).
+    pub(super) fn draw(&self, random: &mut impl Rng) -> [f64; 3] {
+        match StudentT::new(self.degrees_of_freedom) {
+            Ok(student) if self.is_estimated() => [random.sample(student), 0.0, 0.0],
+            _ => draw_parts(self.distribution, random),
+        }
+    }
+
+    /// Returns ΔX for the sizes of its parts.
+    pub(super) fn at(&self, sizes: [f64; 3]) -> [f64; 3] {
+        core::array::from_fn(|row| (0..3).map(|part| sizes[part] * self.parts[part][row]).sum())
+    }
+
+    /// Scales it.
+    pub(super) fn scale(&mut self, share: f64) {
+        self.parts = self.parts.map(|part| part.map(|row| share * row));
+    }
+
+    /// Iterates over the standard uncertainties along the rows of each part, with the sign of ΔX.
+    pub(super) fn standard_parts(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.parts.into_iter().map(|part| part.map(|row| row / self.distribution.divisor()))
+    }
+
+    /// Returns the standard uncertainties along the rows.
     pub(super) fn standard(&self) -> [f64; 3] {
-        self.magnitude.map(|a| a / self.distribution.divisor())
+        let matrix = outer_sum(self.standard_parts());
+        [0, 1, 2].map(|i| matrix[i][i].sqrt())
     }
 }
 
@@ -125,9 +164,5 @@ pub(super) fn is_normal(random: &[RandomError]) -> bool {
 
 /// Returns `Σ_k u_k u_kᵀ`.
 pub(super) fn covariance(random: &[RandomError]) -> [[f64; 3]; 3] {
-    let mut sum = [[0.0; 3]; 3];
-    for u in random.iter().map(RandomError::standard) {
-        sum = core::array::from_fn(|i| core::array::from_fn(|j| sum[i][j] + u[i] * u[j]));
-    }
-    sum
+    outer_sum(random.iter().flat_map(RandomError::standard_parts))
 }

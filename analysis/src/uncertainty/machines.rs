@@ -63,7 +63,7 @@ struct Place {
 
 /// Values of one machine: multiples of its unknown errors by source, and directions by place.
 struct Machine {
-    values: Vec<f64>,
+    values: Vec<[f64; 3]>,
     directions: Vec<[f64; 3]>,
 }
 
@@ -128,17 +128,12 @@ impl Machines {
     /// Draws the values of a machine.
     fn draw(&self, numbers: &mut impl Rng) -> Machine {
         let count = |largest: Option<&usize>| largest.map_or(0, |largest| largest + 1);
-        let mut values = vec![0.0; count(self.of_machine.keys().last())];
+        let mut values = vec![[0.0; 3]; count(self.of_machine.keys().last())];
         for (source, one) in &self.of_machine {
             values[*source] = match one {
                 Some(one) => one.draw(numbers),
-                None => {
-                    if numbers.random::<bool>() {
-                        1.0
-                    } else {
-                        -1.0
-                    }
-                }
+                None if numbers.random::<bool>() => [1.0; 3],
+                None => [-1.0; 3],
             };
         }
         let mut directions = vec![[0.0; 3]; count(self.directed.last())];
@@ -176,9 +171,9 @@ impl Place {
     /// Returns the fixed error of a machine.
     fn fixed(&self, machine: &Machine) -> [f64; 3] {
         let of_machine = self.error.random.iter().filter(|one| one.is_of_machine);
-        let values = of_machine.map(|one| (one.source, one.magnitude));
-        let values = values.chain(self.error.signed.iter().copied());
-        let values = values.map(|(source, v)| v.map(|row| machine.values[source] * row));
+        let values = of_machine.map(|one| one.at(machine.values[one.source]));
+        let signed = self.error.signed.iter();
+        let values = values.chain(signed.map(|(source, v)| v.map(|row| machine.values[*source][0] * row)));
         let directions = self.error.undirected.iter();
         let directions =
             directions.map(|(source, length)| machine.directions[place_of(*source)].map(|row| length * row));
@@ -189,10 +184,7 @@ impl Place {
     fn drawn(&self, seed: u64) -> Vec<[f64; 3]> {
         let mut numbers = stream(seed, usize::MAX);
         let draw = |_| {
-            let random = self.random.iter().map(|one| {
-                let t = one.draw(&mut numbers);
-                one.magnitude.map(|row| t * row)
-            });
+            let random = self.random.iter().map(|one| one.at(one.draw(&mut numbers)));
             sum_of([0.0; 3], random)
         };
         (0..DRAWS).map(draw).collect()

@@ -55,8 +55,10 @@ pub(super) fn degrees_of_freedom(random: &[RandomError], covariance: [[f64; 3]; 
         welch_satterthwaite(&squares.collect::<Vec<_>>())
     };
     let norm = random.iter().map(|one| {
-        let along = principal.components(one.standard());
-        let square = along.iter().zip(weights).map(|(u, weight)| weight * u * u).sum::<f64>();
+        let along = one.standard_parts().map(|part| principal.components(part));
+        let square =
+            |along: [f64; 3]| along.iter().zip(weights).map(|(u, weight)| weight * u * u).sum::<f64>();
+        let square = along.map(square).sum::<f64>();
         (square, one.degrees_of_freedom)
     });
     [row(0), row(1), row(2), cautious(&norm.collect::<Vec<_>>())]
@@ -152,13 +154,13 @@ fn contribution(errors: &ErrorsAt, one: &RandomError, all: f64) -> Contribution 
         (Some((effect, value)), None) => Some((effect.component, value.abs())),
         _ => None,
     };
-    let standard = with_norm(one.standard().map(f64::abs));
+    let standard = with_norm(one.standard());
     let unit = value.map_or(1.0, |(_, value)| value);
     Contribution {
         source: one.source,
         distribution: one.distribution,
         value,
-        sensitivity: with_norm(one.magnitude.map(|a| a.abs() / unit)),
+        sensitivity: standard.map(|u| u * one.distribution.divisor() / unit),
         standard,
         degrees_of_freedom: one.degrees_of_freedom,
         share: (standard[3] / all).powi(2),

@@ -165,7 +165,7 @@ fn covered(sources: &Estimated, scales: &[f64], figure: Figure) -> f64 {
                 degrees_of_freedom: *degrees_of_freedom,
                 is_calibration: false,
                 is_of_machine: false,
-                magnitude,
+                parts: [magnitude, [0.0; 3], [0.0; 3]],
             }
         };
         sources.iter().zip(scales).map(one).collect::<Vec<_>>()
@@ -414,5 +414,94 @@ fn yield_is_that_of_a_simulation() {
         let room = 4.0 * (0.25 / f64::from(count)).sqrt();
         let is_within = found.share > least - room && found.share < most + room;
         assert!(is_within, "{seed}: {found:?}, not {least} to {most}");
+    }
+}
+
+/// A ball and a disc are one error each, with other sources between their parts: `B x`, of which
+/// `‖x‖ ≤ 1`. No draw exceeds the worst case, which is exact for a ball with one radius in all
+/// directions, that of the others plus this radius; probabilities, standard uncertainties and
+/// yields are those of plain loops.
+#[test]
+fn a_ball_is_one_error() {
+    let ball = |part, parts| Distribution::Ball { part, parts };
+    let classes = [
+        Class::Repeatable,
+        Class::Tolerance(ball(0, 3)),
+        Class::Random(Distribution::Uniform),
+        Class::Random(ball(0, 2)),
+        Class::Tolerance(ball(1, 3)),
+        Class::Tolerance(ball(2, 3)),
+        Class::Random(ball(1, 2)),
+    ];
+    let description = machine(classes.map(source).to_vec());
+    assert_eq!([0, 1, 2, 3, 4, 5, 6].map(|k| description.whole(k)), [0, 1, 2, 3, 1, 1, 3]);
+    for seed in 0..12 {
+        let mut errors = errors(&description, 3, seed);
+        let is_exact = seed % 2 == 0;
+        if is_exact {
+            // A ball in turned axes, and no disc.
+            let axes = nalgebra::Rotation3::new(nalgebra::Vector3::from_row_slice(&errors.sources[1][..3]));
+            for (column, k) in [1, 4, 5].into_iter().enumerate() {
+                (0..3).for_each(|row| errors.sources[k][row] = 0.7 * axes[(row, column)]);
+            }
+            [3, 6].into_iter().for_each(|k| errors.sources[k] = [0.0; 6]);
+        }
+        let distribution = errors.distribution(Measurand::Position, None);
+        let mut numbers = stream(!seed, 9);
+        let mut inside = |count: usize, is_on_surface: bool| loop {
+            let x: [f64; 3] =
+                core::array::from_fn(|i| if i < count { 2.0 * numbers.random::<f64>() - 1.0 } else { 0.0 });
+            let length = norm(x);
+            if (0.1..=1.0).contains(&length) && is_on_surface {
+                return x.map(|x| x / length);
+            } else if length <= 1.0 && !is_on_surface {
+                return x;
+            }
+        };
+        let sum = |sizes: [f64; 7]| {
+            norm([0, 1, 2].map(|row| (0..7).map(|k| sizes[k] * errors.sources[k][row]).sum::<f64>()))
+        };
+        let count = 100_000;
+        let worst = distribution.worst_case();
+        let (mut largest, mut squares, mut within) = (0.0_f64, 0.0, 0);
+        let limit = 0.5 * worst.norm;
+        let mut uniform = stream(!seed, 10);
+        for _ in 0..count {
+            let ([a, b, c], [d, e, _]) = (inside(3, true), inside(2, true));
+            for sign in [1.0, -1.0] {
+                largest = largest.max(sum([1.0, a, sign, d, b, c, e]));
+            }
+            let ([a, b, c], [d, e, _], t) =
+                (inside(3, false), inside(2, false), uniform.random_range(-1.0..1.0));
+            let drawn = sum([0.0, a, t, d, b, c, e]);
+            squares += drawn * drawn;
+            within += usize::from(sum([1.0, a, t, d, b, c, e]) <= limit);
+        }
+        assert!(largest <= worst.norm * (1.0 + 1e-12), "{seed}: {largest} exceeds {}", worst.norm);
+        if is_exact {
+            assert!(largest > worst.norm * 0.999, "{seed}: {largest}, not {}", worst.norm);
+            let others = [1.0, -1.0].map(|sign| sum([1.0, 0.0, sign, 0.0, 0.0, 0.0, 0.0]));
+            assert!((worst.norm - others[0].max(others[1]) - 0.7).abs() < 1e-12);
+        }
+        let close = |a: f64, b: f64, error: f64| assert!((a - b).abs() < error, "{seed}: {a}, not {b}");
+        close(worst.shares.iter().map(|(_, share)| share).sum(), 1.0, 1e-12);
+        close(distribution.shares().iter().map(|(_, share)| share).sum(), 1.0, 1e-12);
+        let statement = Statement::new(&errors, Measurand::Position, seed);
+        close((squares / f64::from(count)).sqrt() / statement.standard[3], 1.0, 0.01);
+        let (compliance, _) = distribution.coverage(limit, seed);
+        let share = within as f64 / f64::from(count);
+        close(compliance.probability, share, 5.0 * (0.25 / f64::from(count)).sqrt());
+        // With the tolerance alone, the yield is the probability.
+        let mut fixed = errors.clone();
+        [2, 3, 6].into_iter().for_each(|k| fixed.sources[k] = [0.0; 6]);
+        let alone = fixed.distribution(Measurand::Position, None);
+        let mut machines = Machines::new(0.95);
+        machines.add(alone.clone(), limit);
+        let Yield { interval: [from, to], .. } = machines.yielded(1, seed);
+        let (Compliance { probability, .. }, _) = alone.coverage(limit, seed);
+        assert!(
+            probability > from - 0.01 && probability < to + 0.01,
+            "{seed}: {probability}, {from} to {to}"
+        );
     }
 }

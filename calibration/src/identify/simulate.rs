@@ -4,7 +4,8 @@ use rand::{Rng, RngExt};
 use rand_distr::Normal;
 
 use super::{Failure, Measurement, Model, Observation, Scratch, Unknown, joints_at_values};
-use abbe_analysis::sampling::{draw, stream};
+use abbe_analysis::ErrorParts;
+use abbe_analysis::sampling::stream;
 use abbe_core::Class;
 use abbe_core::displacement;
 
@@ -43,8 +44,9 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
 /// Simulation of one row at a time, for long lists.
 pub struct Simulated<'a> {
     model: Model<'a>,
-    /// Classes of the random sources and tolerances.
-    random: Vec<Class>,
+    /// Random sources and tolerances, and their classes.
+    random: Vec<(usize, Class)>,
+    parts: ErrorParts,
     /// Joints that are not equal in all rows.
     moved: Vec<usize>,
     chance: Chance,
@@ -58,28 +60,35 @@ impl<'a> Simulated<'a> {
         let (unknowns, random) = sources
             .filter_map(|(i, source)| match source.class {
                 Class::Tolerance(_) | Class::Random(_) if chance.random_sources => {
-                    Some((Unknown::Magnitude(i), source.class))
+                    Some((Unknown::Magnitude(i), (i, source.class)))
                 }
                 _ => None,
             })
             .unzip();
+        let parts = ErrorParts::new(model.manipulator.description());
         let model = model.with(unknowns);
         let first = list.first().map_or(&[][..], |row| &row.q);
         let moved = (0..first.len()).filter(|j| list.iter().any(|row| row.q[*j] != first[*j])).collect();
-        Self { scratch: model.scratch(), model, random, moved, chance: *chance }
+        Self { scratch: model.scratch(), model, random, parts, moved, chance: *chance }
     }
 
     /// Simulates row `i`.
     pub fn row(&mut self, i: usize, planned: &Observation) -> Result<Observation, Failure> {
-        let Self { model, random, moved, chance, scratch } = self;
+        let Self { model, random, parts, moved, chance, scratch } = self;
         let mut numbers = stream(chance.seed ^ APART, i);
         // One machine has one value of each tolerance.
         let mut machine = stream(chance.seed ^ APART, usize::MAX);
-        let x = random.iter().map(|class| match class {
-            Class::Tolerance(distribution) if chance.one_machine => draw(*distribution, &mut machine),
-            class => class.distribution().map_or(1.0, |distribution| draw(distribution, &mut numbers)),
-        });
-        let x: Vec<f64> = x.collect();
+        let mut x = vec![1.0; random.len()];
+        for (source, class) in random.iter() {
+            let of_machine = chance.one_machine && matches!(class, Class::Tolerance(_));
+            let numbers = if of_machine { &mut machine } else { &mut numbers };
+            let Some(distribution) = class.distribution() else { continue };
+            parts.draw(*source, distribution, numbers, |part, drawn| {
+                if let Some(at) = random.iter().position(|(other, _)| *other == part) {
+                    x[at] = drawn;
+                }
+            });
+        }
         let planned = &touching(model, planned, &x, moved, chance, &mut numbers)?;
         let pose = model.pose(scratch, planned, &x)?;
         let readings = model.values(scratch, planned, &x)?;

@@ -35,6 +35,16 @@ impl Magnitude {
     pub(super) fn length(graph: &mut Graph, vector: Vector) -> Self {
         Self { node: graph.dot(vector, vector), squared: true, parts: vector.to_vec() }
     }
+
+    /// Adds a radius, which is not negative.
+    fn and_radius(mut self, graph: &mut Graph, radius: Node) -> Self {
+        if radius == graph.zero() {
+            return self;
+        }
+        let norm = if self.squared { graph.sqrt(self.node) } else { self.node };
+        self.parts.push(radius);
+        Self { node: graph.add(norm, radius), squared: false, parts: self.parts }
+    }
 }
 
 /// Magnitudes of the errors of the tool point in the worst case: the largest sizes of sums in which
@@ -43,7 +53,8 @@ impl Magnitude {
 /// norm of rows 4–6.
 ///
 /// The largest norm of a sum `Σ t_i v_i` with every `t_i` from −1 to 1 is the largest value of `Σ
-/// |u·v_i|` over all unit vectors u. Norms of several sources are therefore nodes of the two angles
+/// |u·v_i|` over all unit vectors u. A ball or disc with the parts `B = [b_1 b_2 …]` adds `‖Bᵀu‖`,
+/// which is its radius for a displacement that is as large in all directions. Norms of several sources are therefore nodes of the two angles
 /// of u, too, the [`DIRECTION`], and are to be maximized over these.
 #[derive(Clone, Debug)]
 pub struct Magnitudes {
@@ -77,6 +88,29 @@ pub struct PerFrameMagnitudes {
     pub repeatable: Vec<[Magnitude; 2]>,
     /// ‖d_i‖ and ‖θ_i‖ of each random source at its bound.
     pub random: Vec<Vec<[Magnitude; 2]>>,
+}
+
+/// Returns the radius of a ball with these parts, if they are displacements of one frame along x, y
+/// and z, as large in all directions.
+fn radius_of<'a>(zero: Node, parts: impl Iterator<Item = &'a Vec<[Node; 6]>>) -> Option<Node> {
+    let entries = |errors: &Vec<[Node; 6]>| {
+        let all = errors.as_flattened().iter().copied().enumerate();
+        all.filter(|(_, error)| *error != zero).collect::<Vec<_>>()
+    };
+    let mut all: Vec<(usize, Node)> = parts.flat_map(entries).collect();
+    all.sort_by_key(|(at, _)| *at);
+    match all[..] {
+        [(first, radius), (second, same), (third, too)]
+            if first % 6 == 0
+                && second == first + 1
+                && third == first + 2
+                && radius == same
+                && radius == too =>
+        {
+            Some(radius)
+        }
+        _ => None,
+    }
 }
 
 /// Returns ‖d‖ and ‖θ‖ of the errors of each frame.
@@ -118,10 +152,13 @@ impl Magnitudes {
             repeatable: sizes_apart(g, &errors),
             random: Vec::new(),
         };
-        let mut random = Vec::new();
+        // Each random source has a place, and all parts of a ball or disc have that of its first one.
+        let (mut random, mut places) = (Vec::new(), Vec::new());
         let by_source = errors_by_source(zero, spec, &effects);
-        for (source, errors) in spec.enabled_sources().zip(&by_source) {
+        let enabled = spec.sources.iter().enumerate().filter(|(_, source)| source.enabled);
+        for ((k, source), errors) in enabled.zip(&by_source) {
             if let Some(distribution) = source.class.distribution() {
+                places.push(if source.is_calibration_error() { k } else { spec.whole(k) });
                 let bound = g.constant(distribution.bound());
                 let at_bound = errors.iter().map(|errors| errors.map(|error| g.mul(bound, error)));
                 let at_bound: Vec<[Node; 6]> = at_bound.collect();
@@ -129,10 +166,27 @@ impl Magnitudes {
                 random.push(at_bound);
             }
         }
+        let mut radius = zero;
+        let joint: Vec<usize> =
+            (0..spec.sources.len()).filter(|k| places.iter().filter(|at| *at == k).count() == 3).collect();
+        for place in joint {
+            let parts =
+                || places.iter().zip(&random).filter(|(at, _)| **at == place).map(|(_, errors)| errors);
+            if let Some(own) = radius_of(zero, parts()) {
+                let size = g.call(Function::Abs, own);
+                radius = g.add(radius, size);
+                let is_left: Vec<bool> = places.iter().map(|at| *at != place).collect();
+                let mut left = is_left.iter();
+                random.retain(|_| left.next().copied().unwrap_or_default());
+                places.retain(|at| *at != place);
+            }
+        }
         let repeatable = vec![errors];
         let all = [&repeatable[..], &random].concat();
+        let with_sum: Vec<usize> = [usize::MAX].into_iter().chain(places.iter().copied()).collect();
+        let kinds = [(repeatable, vec![usize::MAX], zero), (random, places, radius), (all, with_sum, radius)];
         let moves = |errors: &[Node; 6]| *errors != [zero; 6];
-        let [repeatable, random, total] = [repeatable, random, all].map(|kind| {
+        let [repeatable, random, total] = kinds.map(|(kind, places, radius)| {
             let first = kind.iter().filter_map(|errors| errors.iter().position(moves)).min();
             let first = first.unwrap_or(spec.frames.len());
             let moved: Vec<ToolDisplacement> = kind
@@ -142,7 +196,12 @@ impl Magnitudes {
             let symbols = g.symbols(kind.concat().as_flattened());
             let is_constant = symbols.iter().all(|symbol| matches!(symbol, Symbol::Parameter(_)));
             let most_signed = if is_constant { MOST_SIGNED } else { 0 };
-            (largest_of(g, &moved, most_signed), largest_across_z(g, &moved, most_signed))
+            let is_joint = |place: &usize| places.iter().filter(|other| *other == place).count() > 1;
+            let most_signed = if places.iter().any(is_joint) { 0 } else { most_signed };
+            let [norm, x, y, z, turn] = largest_of(g, &moved, &places, most_signed);
+            let across_z = largest_across_z(g, &moved, &places, most_signed);
+            let [norm, x, y, z, across_z] = [norm, x, y, z, across_z].map(|sum| sum.and_radius(g, radius));
+            ([norm, x, y, z, turn], across_z)
         });
         let across_z = [repeatable.1, random.1, total.1];
         Self { graph, repeatable: repeatable.0, random: random.0, total: total.0, across_z, apart }
@@ -150,25 +209,36 @@ impl Magnitudes {
 }
 
 /// Returns the largest magnitudes of the sum of displacements with any signs.
-fn largest_of(graph: &mut Graph, moved: &[ToolDisplacement], most_signed: usize) -> [Magnitude; 5] {
+fn largest_of(
+    graph: &mut Graph,
+    moved: &[ToolDisplacement],
+    places: &[usize],
+    most_signed: usize,
+) -> [Magnitude; 5] {
     let along = |axis: usize| moved.iter().map(|moved| vec![moved.along[axis]]).collect::<Vec<_>>();
     let norm = |of: fn(&ToolDisplacement) -> Vector| moved.iter().map(|moved| of(moved).to_vec()).collect();
     let vectors = [norm(|moved| moved.shift), along(0), along(1), along(2), norm(|moved| moved.turn)];
-    vectors.map(|vectors| largest_sum(graph, &vectors, most_signed))
+    vectors.map(|vectors| largest_sum(graph, &vectors, places, most_signed))
 }
 
 /// Returns the largest norm of x and y behind the leading rotations about z.
-fn largest_across_z(graph: &mut Graph, moved: &[ToolDisplacement], most_signed: usize) -> Magnitude {
+fn largest_across_z(
+    graph: &mut Graph,
+    moved: &[ToolDisplacement],
+    places: &[usize],
+    most_signed: usize,
+) -> Magnitude {
     let vectors: Vec<Vec<Node>> = moved.iter().map(|moved| moved.across_z.to_vec()).collect();
-    largest_sum(graph, &vectors, most_signed)
+    largest_sum(graph, &vectors, places, most_signed)
 }
 
 /// Returns the largest norm of the sum of vectors of one, two or three entries with any signs: over
-/// all patterns of signs of at most `most_signed` vectors, or over all directions.
-fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], most_signed: usize) -> Magnitude {
+/// all patterns of signs of at most `most_signed` vectors, or over all directions. Vectors with the
+/// same place are parts of one error.
+fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], places: &[usize], most_signed: usize) -> Magnitude {
     let zero = graph.zero();
-    let vectors: Vec<&Vec<Node>> =
-        vectors.iter().filter(|vector| vector.iter().any(|entry| *entry != zero)).collect();
+    let (vectors, places): (Vec<&Vec<Node>>, Vec<usize>) =
+        vectors.iter().zip(places).filter(|(vector, _)| vector.iter().any(|entry| *entry != zero)).unzip();
     if let [vector] = vectors[..] {
         return Magnitude { node: products(graph, vector, vector), squared: true, parts: vector.clone() };
     }
@@ -177,10 +247,19 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], most_signed: usize) -> 
     }
     let unit = direction(graph, vectors.first().map_or(1, |vector| vector.len()));
     let parts: Vec<Node> = vectors.into_iter().map(|vector| products(graph, vector, &unit)).collect();
-    let node = parts.iter().fold(zero, |sum, part| {
-        let size = graph.call(Function::Abs, *part);
-        graph.add(sum, size)
-    });
+    let mut node = zero;
+    for (first, place) in places.iter().enumerate().filter(|(k, place)| !places[..*k].contains(place)) {
+        let own: Vec<Node> =
+            places.iter().zip(&parts).filter(|(other, _)| *other == place).map(|(_, part)| *part).collect();
+        let size = match own.len() {
+            1 => graph.call(Function::Abs, parts[first]),
+            _ => {
+                let square = products(graph, &own, &own);
+                graph.sqrt(square)
+            }
+        };
+        node = graph.add(node, size);
+    }
     Magnitude { node, squared: false, parts }
 }
 

@@ -4,5 +4,5 @@ mod draw;
 mod streams;
 
 pub use abbe_core::sampling::*;
-pub use draw::draw;
+pub use draw::{draw, draw_parts};
 pub use streams::stream;

@@ -302,11 +302,27 @@ pub enum Distribution {
     /// The magnitude is the amplitude of a sine of unknown phase, such as an eccentricity; the ends
     /// are most likely.
     Arcsine,
+    /// The magnitude is the semi-axis of an ellipsoid, or of an ellipse, in which the errors of all
+    /// parts together are evenly distributed. One error has two or three parts, each a source: the
+    /// first part is in its place, the others follow all errors of the file.
+    Ball {
+        /// Number of this part, from 0.
+        part: u8,
+        /// Number of parts, 2 or 3.
+        parts: u8,
+    },
 }
 
 impl Distribution {
-    /// The four distributions.
-    pub const ALL: [Self; 4] = [Self::Uniform, Self::Normal, Self::Triangular, Self::Arcsine];
+    /// All distributions; the last is the first part of an error with two or three parts.
+    pub const ALL: [Self; 6] = [
+        Self::Uniform,
+        Self::Normal,
+        Self::Triangular,
+        Self::Arcsine,
+        Self::Ball { part: 0, parts: 2 },
+        Self::Ball { part: 0, parts: 3 },
+    ];
 
     /// Returns the name in a spec file.
     pub const fn name(self) -> &'static str {
@@ -315,6 +331,8 @@ impl Distribution {
             Self::Normal => "normal",
             Self::Triangular => "triangular",
             Self::Arcsine => "arcsine",
+            Self::Ball { parts: 2, .. } => "disc",
+            Self::Ball { .. } => "ball",
         }
     }
 
@@ -336,18 +354,21 @@ impl Distribution {
             Self::Normal => 1.0,
             Self::Triangular => 6.0,
             Self::Arcsine => 2.0,
+            Self::Ball { parts, .. } => parts as f64 + 2.0,
         }
     }
 
     /// Returns the divisor of the magnitude that yields the standard uncertainty (GUM, 4.3.7 and
     /// 4.3.9): √3 for a uniform error, 1 for a normal, √6 for a triangular and √2 for an arcsine
-    /// one.
+    /// one, 2 and √5 along each semi-axis of a disc and of a ball.
     pub const fn divisor(self) -> f64 {
         match self {
             Self::Uniform => 1.732_050_807_568_877_2,
             Self::Normal => 1.0,
             Self::Triangular => 2.449_489_742_783_178,
             Self::Arcsine => core::f64::consts::SQRT_2,
+            Self::Ball { parts: 2, .. } => 2.0,
+            Self::Ball { .. } => 2.236_067_977_499_79,
         }
     }
 }
@@ -399,6 +420,27 @@ impl Source {
             reference: Text::Constant(reference),
         }
     }
+}
+
+/// Returns the index of the source of whose error source k is a part, given the class of each source
+/// and whether it belongs to a calibration: the first part of the same ball or disc, or of the
+/// calibration; all other sources are whole. Balls have their other parts in the order of the first
+/// ones.
+pub fn whole(k: usize, class: impl Fn(usize) -> Class, is_calibration: impl Fn(usize) -> bool) -> usize {
+    let part = |i: usize| match class(i).distribution() {
+        Some(Distribution::Ball { part, parts }) => Some((part, parts)),
+        _ => None,
+    };
+    let first = if is_calibration(k) {
+        (0..k).find(|i| is_calibration(*i))
+    } else if part(k).is_some_and(|(part, _)| part > 0) {
+        let is_last = |i: &usize| part(*i).is_some_and(|(part, parts)| part > 0 && part + 1 == parts);
+        let is_first = |i: &usize| part(*i).is_some_and(|(part, _)| part == 0);
+        (0..k).filter(is_first).nth((0..k).filter(is_last).count())
+    } else {
+        None
+    };
+    first.unwrap_or(k)
 }
 
 /// Generalized error that a source causes. The effects of one random source share one magnitude.
@@ -462,6 +504,11 @@ impl Description {
     /// Iterates over the passive variables, which loops determine.
     pub fn passive(&self) -> impl Iterator<Item = &Variable> {
         self.frames.iter().filter_map(|frame| frame.branch.as_ref()?.passive.as_ref())
+    }
+
+    /// Returns the index of the source of whose error source k is a part: usually its own.
+    pub fn whole(&self, k: usize) -> usize {
+        whole(k, |i| self.sources[i].class, |i| self.sources[i].is_calibration())
     }
 
     /// Returns the index of the frame that a frame hangs on; `None` for `F_0`.

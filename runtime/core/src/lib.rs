@@ -56,7 +56,7 @@ pub use chain::{
 pub use component::Component;
 pub use description::{
     Branch, Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter,
-    Source, SumLimit, Variable, VariableKind,
+    Source, SumLimit, Variable, VariableKind, whole,
 };
 pub use distinct::ErrorColumns;
 #[cfg(feature = "std")]

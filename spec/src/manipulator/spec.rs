@@ -144,6 +144,19 @@ impl Spec {
         self.sources.iter().filter(|source| source.enabled)
     }
 
+    /// Returns the index of the source of whose error a source is a part: usually its own; that of
+    /// the first component of a ball, or of the first part of a calibration.
+    pub fn whole(&self, source: usize) -> usize {
+        let of = |i: usize| &self.sources[i];
+        abbe_core::whole(source, |i| of(i).class, |i| of(i).is_calibration_error())
+    }
+
+    /// Iterates over the enabled sources that are no part of the error of an earlier one.
+    pub fn whole_sources(&self) -> impl Iterator<Item = &Source> {
+        let all = self.sources.iter().enumerate();
+        all.filter(|(k, source)| source.enabled && self.whole(*k) == *k).map(|(_, source)| source)
+    }
+
     /// Converts the index of a source to its index among the enabled ones; `None` if it is
     /// disabled.
     pub fn enabled_index(&self, source: usize) -> Option<usize> {

@@ -119,7 +119,7 @@ impl AnalysisSweep<'_> {
             let tolerance = self.study.tolerances()[measurand as usize].filter(|_| is_error);
             let factor =
                 tolerance.map(|tolerance| tolerance / largest.value).filter(|factor| factor.is_finite());
-            Ok(JudgedShares::new(&distribution, by_worst_case, factor, sources.len()))
+            Ok(JudgedShares::new(&distribution, by_worst_case, factor, sources))
         };
         Ok([of(Measurand::Position)?, of(Measurand::Orientation)?])
     }

@@ -5,14 +5,14 @@
 //! during the sweep, and `first_order` compares with the exact chain.
 //!
 //! `unreachable` has the reasons, `loop_condition` the loops, and `singular` the Euler angles.
-//! `calibration` is its uncertainty, `compensated` the machine after compensation, and `judgement`
+//! `joint_errors` are those of several sources, `compensated` the machine after compensation, and `judgement`
 //! holds both machines against the tolerances.
 
-mod calibration;
 mod compensated;
 pub mod figures;
 mod first_order;
 mod job;
+mod joint_errors;
 mod judgement;
 mod loop_condition;
 pub mod options;

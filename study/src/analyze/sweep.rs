@@ -5,16 +5,16 @@ use std::ops::Range;
 
 use abbe::Manipulator;
 use abbe::analysis::{
-    Budget, BudgetSweep, Configuration, Measurand, PartialBudget, Row, Statement, Subset, Sweepable,
-    Unevaluated, Watch, Workspace, errors_at, monte_carlo,
+    Budget, BudgetSweep, Configuration, ErrorParts, Measurand, PartialBudget, Row, Statement, Subset,
+    Sweepable, Unevaluated, Watch, Workspace, errors_at, monte_carlo,
 };
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
-use super::calibration::LargestCalibrationErrors;
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
+use super::joint_errors::LargestJointErrors;
 use super::loop_condition::LoopCondition;
 use super::report::{
     AfterCompensation, CombinedReport, Comparison, CompensationBasis, ErrorSites, Ledger, MonteCarloErrors,
@@ -22,7 +22,7 @@ use super::report::{
 };
 use super::unreachable;
 use crate::bound::CertifiedNorms;
-use crate::calibration::{first_part, named_as_one};
+use crate::calibration::named_as_one;
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::finite::finite;
 use crate::machine::Machine;
@@ -40,8 +40,8 @@ const EXTRAPOLATED: usize = 2000;
 pub(super) struct PartialAnalysis {
     /// Data of the error sources.
     pub(super) budget: PartialBudget,
-    /// Errors of the calibration; `None` if the spec has no covariance.
-    calibration: Option<LargestCalibrationErrors>,
+    /// Errors with several parts.
+    joint: LargestJointErrors,
     /// Data of the figures; `None` if they were not requested.
     figures: Option<Vec<PartialFigure>>,
 }
@@ -72,30 +72,25 @@ impl AnalysisSweep<'_> {
         let range = self.budget.configurations(&chunks);
         let builder = self.figures.then(|| FiguresBuilder::new(self.study, self.manipulator.description()));
         notes.progress(0, range.len());
-        let calibration = self.first_part().map(|first| (LargestCalibrationErrors::new(), first));
-        let mut observer = SweepObserver { rows, calibration, builder, notes, range: range.clone() };
+        let parts = self.parts();
+        let joint = LargestJointErrors::new(&parts);
+        let mut observer = SweepObserver { rows, joint, parts, builder, notes, range: range.clone() };
         let budget = self.budget.part(chunks, &mut observer);
-        let SweepObserver { calibration, builder, notes, .. } = observer;
+        let SweepObserver { joint, builder, notes, .. } = observer;
         notes.progress(range.len(), range.len());
         let budget = budget.map_err(|refused| self.not_evaluated(&refused))?;
         // An interrupted sweep returns an incomplete part; do not use it.
         notes.go_on()?;
-        let calibration = calibration.map(|(errors, _)| errors);
-        Ok(PartialAnalysis { budget, calibration, figures: builder.map(FiguresBuilder::data) })
+        Ok(PartialAnalysis { budget, joint, figures: builder.map(FiguresBuilder::data) })
     }
 
-    /// Returns the index of the first of the sources that are the calibration, if there are any.
-    fn first_part(&self) -> Option<usize> {
-        first_part(&self.machine.spec)
+    fn parts(&self) -> ErrorParts {
+        ErrorParts::new(self.manipulator.description())
     }
 
     /// Returns whether data can belong to this sweep. They may come from a file.
     pub(super) fn fits(&self, data: &PartialAnalysis) -> bool {
-        let calibration = match &data.calibration {
-            None => self.first_part().is_none(),
-            Some(errors) => self.first_part().is_some() && errors.fits(self.workspace.len()),
-        };
-        calibration && self.budget.fits(&data.budget)
+        data.joint.fits(&self.parts(), self.workspace.len()) && self.budget.fits(&data.budget)
     }
 
     /// Appends the data of the chunks that follow. Returns false if they do not follow or have
@@ -111,9 +106,7 @@ impl AnalysisSweep<'_> {
         };
         let Some(figures) = figures else { return false };
         all.figures = figures;
-        if let (Some(all), Some(next)) = (&mut all.calibration, &next.calibration) {
-            all.append(next);
-        }
+        all.joint.append(&next.joint);
         all.budget.append(next.budget).is_ok()
     }
 
@@ -122,9 +115,7 @@ impl AnalysisSweep<'_> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
         let spec = &named_as_one(&machine.spec);
         let mut budget = self.budget.finish(data.budget);
-        if let Some((errors, first)) = data.calibration.zip(self.first_part()) {
-            errors.replace_parts(&mut budget, first);
-        }
+        data.joint.replace_parts(&mut budget, &self.parts());
         self.require_reached(&budget)?;
         self.require_oriented(&budget)?;
         notes.go_on()?;
@@ -331,8 +322,8 @@ impl AnalysisSweep<'_> {
 /// Observer of the sweep: passes each configuration on, and reports progress.
 struct SweepObserver<'r, 'n, 'g> {
     rows: Option<&'r mut dyn FnMut(&Row)>,
-    /// Errors of the calibration, and the index of the first of its sources.
-    calibration: Option<(LargestCalibrationErrors, usize)>,
+    joint: LargestJointErrors,
+    parts: ErrorParts,
     builder: Option<FiguresBuilder<'g>>,
     notes: &'n mut dyn Notes,
     /// Indices of the configurations of this sweep.
@@ -341,12 +332,12 @@ struct SweepObserver<'r, 'n, 'g> {
 
 impl Watch for SweepObserver<'_, '_, '_> {
     fn rows(&self) -> bool {
-        self.rows.is_some() || self.calibration.is_some() || self.builder.is_some()
+        self.rows.is_some() || !self.joint.is_empty() || self.builder.is_some()
     }
 
     fn row(&mut self, row: &Row) {
         self.rows.iter_mut().for_each(|show| show(row));
-        self.calibration.iter_mut().for_each(|(errors, first)| errors.add(row, *first));
+        self.joint.add(row, &self.parts);
         self.builder.iter_mut().for_each(|builder| builder.add(row));
     }
 

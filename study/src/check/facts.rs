@@ -166,8 +166,9 @@ impl Facts {
         let all = spec.sources.iter().map(|source| abbe_spec::Source { enabled: true, ..source.clone() });
         let (_, effects) = effects(&Spec { sources: all.collect(), ..Spec::clone(spec) });
         let mut counts = vec![0; spec.sources.len()];
-        effects.iter().for_each(|effect| counts[effect.source] += 1);
-        let sources = spec.sources.iter().zip(counts).map(|(source, effects)| Source {
+        effects.iter().for_each(|effect| counts[spec.whole(effect.source)] += 1);
+        let sources = spec.sources.iter().zip(counts).enumerate().filter(|(k, _)| spec.whole(*k) == *k);
+        let sources = sources.map(|(_, (source, effects))| Source {
             name: source.name.clone(),
             class: class(source.class),
             at: spec.place(source),

@@ -165,6 +165,8 @@ pub struct LiveSource {
     pub at: String,
     /// `true` if the source is enabled.
     pub enabled: bool,
+    /// Sources of the code: its own, or the parts of its error.
+    pub parts: Vec<usize>,
     /// Index of the input of the code that is the factor of a repeatable source.
     pub magnitude: Option<usize>,
     /// Factor of its errors in this machine: its magnitude in the spec.
@@ -201,9 +203,11 @@ impl Report {
         let spec = &machine.spec;
         let (factor, symbol) = number::error_unit(spec.length.symbol());
         let sources = sources(spec, tunable);
-        // All parts of a calibration, which are last in the code, are one source.
-        let last = sources.len().saturating_sub(1);
-        let effects = effects.into_iter().map(|[source, frame, error]| [source.min(last), frame, error]);
+        // All parts of an error are one source.
+        let place =
+            |k: usize| sources.iter().position(|source| source.parts.contains(&k)).unwrap_or_default();
+        let effects = effects.into_iter().map(|[source, frame, error]| [place(source), frame, error]);
+        let effects: Vec<[usize; 3]> = effects.collect();
         Self {
             spec: machine.origin.clone(),
             name: spec.name.clone(),
@@ -230,7 +234,7 @@ impl Report {
             inputs: inputs(spec),
             parameters: parameters(spec, |i| study.region.parameter_range(i)),
             sources,
-            effects: effects.collect(),
+            effects,
             configurations,
             residuals: None,
             code,
@@ -298,12 +302,16 @@ fn parameters(spec: &Spec, range: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<Liv
     spec.parameters.iter().enumerate().map(parameter).collect()
 }
 
-/// Returns the sources of the code; a calibration, which has several parts at the end, as one.
+/// Returns the sources of the code, with all parts of an error as one.
 fn sources(spec: &Arc<Spec>, tunable: &Spec) -> Vec<LiveSource> {
     let spec = named_as_one(spec);
+    let mut parts = vec![Vec::new(); spec.sources.len()];
+    (0..spec.sources.len()).for_each(|k| parts[spec.whole(k)].push(k));
+    let place = |whole: usize| parts[..whole].iter().filter(|parts| !parts.is_empty()).count();
     let source = |(i, one): (usize, &abbe_spec::Source)| {
         let (class, distribution) = number::class(one.class);
         LiveSource {
+            parts: parts[i].clone(),
             name: one.name.clone(),
             class,
             distribution,
@@ -312,11 +320,9 @@ fn sources(spec: &Arc<Spec>, tunable: &Spec) -> Vec<LiveSource> {
             enabled: one.enabled,
             magnitude: tunable.sources[i].tuned_by,
             value: one.factor(),
-            follows: followed_source(&spec, i).filter(|_| one.enabled || !one.has_weight()),
+            follows: followed_source(&spec, i).filter(|_| one.enabled || !one.has_weight()).map(place),
             description: one.description.clone(),
         }
     };
-    let first_part = spec.sources.iter().position(abbe_spec::Source::is_calibration_error);
-    let count = first_part.map_or(spec.sources.len(), |first| first + 1);
-    spec.sources.iter().enumerate().take(count).map(source).collect()
+    spec.sources.iter().enumerate().filter(|(i, _)| !parts[*i].is_empty()).map(source).collect()
 }

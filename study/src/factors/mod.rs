@@ -6,7 +6,8 @@ mod report;
 use abbe::Class;
 use abbe::analysis::sampling::norm;
 use abbe::analysis::{
-    AllocationCriterion, Allocator, ErrorRow, Measurand, Row, ScalableSource, Sweepable, Workspace, sweep,
+    AllocationCriterion, Allocator, ErrorParts, ErrorRow, Measurand, Row, ScalableSource, Sweepable,
+    Workspace, sweep,
 };
 use abbe_spec::Source;
 use abbe_spec::diagnostic::Diagnostics;
@@ -63,7 +64,8 @@ impl Factors<'_> {
             Criterion::WorstCase => AllocationCriterion::WorstCase,
             _ => AllocationCriterion::RootSumOfSquares,
         };
-        let mut allocator = Allocator::new(criterion, self.sources());
+        let parts = ErrorParts::new(manipulator.description());
+        let mut allocator = Allocator::new(criterion, self.sources(&parts));
         loop {
             notes.go_on()?;
             let allocation = allocator.solve().map_err(|values| {
@@ -83,7 +85,12 @@ impl Factors<'_> {
                     let tolerance = tolerance.filter(|_| row.oriented || measurand == Measurand::Position);
                     let Some(tolerance) = tolerance else { continue };
                     let errors = row.sources.iter().map(|error| measurand.rows(error).map(|e| e / tolerance));
-                    let errors: Vec<[f64; 3]> = errors.collect();
+                    let mut errors: Vec<[f64; 3]> = errors.collect();
+                    for own in parts.joint() {
+                        let (_, norm) = parts.largest(own[0], row.sources, measurand);
+                        own.iter().for_each(|part| errors[*part] = [0.0; 3]);
+                        errors[own[0]][0] = norm / tolerance;
+                    }
                     for (largest, error) in largest.iter_mut().zip(&errors) {
                         let largest = &mut largest[measurand as usize];
                         *largest = largest.max(norm(*error));
@@ -135,7 +142,7 @@ impl Factors<'_> {
 
     /// Returns the enabled sources. Parts of a calibration are fixed, and so is the uncertainty of
     /// an input, which depends on the factors of other sources.
-    fn sources(&self) -> Vec<ScalableSource> {
+    fn sources(&self, parts: &ErrorParts) -> Vec<ScalableSource> {
         let spec = &self.machine.spec;
         let enabled = spec.sources.iter().enumerate().filter(|(_, source)| source.enabled);
         let scalable = |(own, (index, source)): (usize, (usize, &Source))| {
@@ -145,7 +152,8 @@ impl Factors<'_> {
             let limits = if is_fixed { [1.0; 2] } else { [LEAST, if self.loosen { MOST } else { 1.0 }] };
             let is_repeatable = source.class == Class::Repeatable;
             let followed = followed_source(spec, index).and_then(|index| spec.enabled_index(index));
-            ScalableSource { is_repeatable, follows: followed.unwrap_or(own), cost, exponent, limits }
+            let (follows, is_joint) = (followed.unwrap_or(own), parts.of(own).len() > 1);
+            ScalableSource { is_repeatable, is_joint, follows, cost, exponent, limits }
         };
         enabled.enumerate().map(scalable).collect()
     }

@@ -1,6 +1,7 @@
 //! Tests of the jobs as library calls.
 
 mod allocate;
+mod balls;
 mod boxes;
 mod checked_loops;
 mod closed_loops;

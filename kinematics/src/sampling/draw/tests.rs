@@ -13,11 +13,18 @@ fn draws_are_distributed_as_they_say() {
         (Distribution::Normal, libm::erf(0.5 / core::f64::consts::SQRT_2)),
         (Distribution::Triangular, 0.75),
         (Distribution::Arcsine, 1.0 / 3.0),
+        (
+            Distribution::Ball { part: 0, parts: 2 },
+            (0.25_f64.sqrt().asin() + 0.1875_f64.sqrt()) * 2.0 / core::f64::consts::PI,
+        ),
+        (Distribution::Ball { part: 0, parts: 3 }, 11.0 / 16.0),
     ] {
         let mut random = stream(3, 0);
         let (mut sum, mut squares, mut fourth, mut within) = (0.0, 0.0, 0.0, 0);
         for _ in 0..count {
-            let x = draw(distribution, &mut random);
+            let point = draw_parts(distribution, &mut random);
+            let x = point[2 * usize::from(distribution == Distribution::ALL[5])];
+            assert!(!distribution.is_bounded() || norm(point) <= 1.0);
             assert!(!distribution.is_bounded() || x.abs() <= distribution.bound());
             sum += x;
             squares += x * x;

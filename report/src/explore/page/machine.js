@@ -2,16 +2,16 @@
 
 import { steady } from "./number.js";
 import { factorOf } from "./state.js";
-import { worstCase } from "./worst_case.js";
+import { longest as longestOf, worstCase } from "./worst_case.js";
 
 /** @import { Report, State } from "./state.js" */
 
 /**
  * Errors of position (length unit) or orientation (rad): norm of each source and its signed share of the total, Σ of the
- * repeatable sources, vectors of the others, norm of a calibration, root sum of squares, and the norm of the former sum. The total is the worst case over all signs, or the sum of both norms if
+ * repeatable sources, vectors of the others, sum of the largest norms of errors with several parts, root sum of squares by rows and of norms, and the norm of the former sum. The total is the worst case over all signs, or the sum of both norms if
  * the study is judged by root sum of squares; the others have the rest of it.
- * @typedef {{norms: number[], shares: number[], repeatable: number[], unknown: number[][], calibration: number,
- *     random: number[], repeatableRadius: number, randomRadius: number,
+ * @typedef {{norms: number[], shares: number[], repeatable: number[], unknown: number[][], joint: number,
+ *     random: number[], randomNorm: number, repeatableRadius: number, randomRadius: number,
  *     radius: number}} Combined
  */
 
@@ -66,7 +66,8 @@ export function createMachine(generated, report) {
     const { real_pose = generated.pose, effects: effectsOf = () => [], source_displacements = () => [] } = generated;
     const isRandom = report.sources.map((source) => source.class !== "repeatable");
 
-    const isCalibration = (/** @type {number} */ k) => report.sources[k].at === "calibration";
+    /** Returns whether an error has several parts, and any direction. @param {number} k */
+    const isJoint = (k) => report.sources[k].parts.length > 1;
 
     /** Returns the inputs of the code: those of the spec, then the magnitudes of sources. @param {State} state */
     const inputs = (state) => {
@@ -83,62 +84,61 @@ export function createMachine(generated, report) {
         return isRandom[k] ? factor * report.sources[k].bound : Number(factor !== 0);
     };
 
-    /** @param {number[][]} displacements @param {number} first of three rows @returns {Combined} */
-    const combine = (displacements, first) => {
+    /** @param {number[][]} displacements @param {number[][][]} parts of each source @param {number} first of three rows @returns {Combined} */
+    const combine = (displacements, parts, first) => {
         const [repeatable, squares] = [[0, 0, 0], [0, 0, 0]];
         const unknown = /** @type {number[][]} */ ([]);
-        let calibration = 0;
-        const norms = displacements.map((displacement, k) => {
+        let joint = 0;
+        let square = 0;
+        const lengths = displacements.map((displacement, k) => {
             const rows = displacement.slice(first, first + 3);
-            // A calibration has an error in any direction.
-            if (isCalibration(k)) calibration += norm(rows);
+            const length = isJoint(k) ? longestOf(parts[k].map((part) => part.slice(first, first + 3))) : norm(rows);
+            if (isJoint(k)) joint += length;
             else if (isRandom[k]) unknown.push(rows);
+            if (isRandom[k]) square += length * length;
             rows.forEach((row, i) => (isRandom[k] ? (squares[i] += row * row) : (repeatable[i] += row)));
-            return steady(norm(rows));
+            return length;
         });
         const random = squares.map(Math.sqrt);
-        const [own, root] = [norm(repeatable), norm(random)];
+        const [own, root] = [norm(repeatable), Math.sqrt(square)];
         const isSum = report.study.criterion === "rss";
         const longest = isSum ? repeatable : worstCase(repeatable, unknown);
-        const total = isSum ? own + root : norm(longest) + calibration;
+        const total = isSum ? own + root : norm(longest) + joint;
         const along = (/** @type {number[]} */ rows) => (longest[0] * rows[0] + longest[1] * rows[1] + longest[2] * rows[2]) / norm(longest);
         const shares = displacements.map((displacement, k) => {
             const rows = displacement.slice(first, first + 3);
-            const part = !isRandom[k] ? along(rows) : isSum ? norm(rows) ** 2 / root : isCalibration(k) ? norm(rows) : Math.abs(along(rows));
+            const part = !isRandom[k] ? along(rows) : isSum ? lengths[k] ** 2 / root : isJoint(k) ? lengths[k] : Math.abs(along(rows));
             return (part || 0) / total || 0;
         });
         const [all, one, other] = [total, own, total - own].map(steady);
-        return { norms, shares, repeatable, unknown, calibration, random, repeatableRadius: one, randomRadius: other, radius: all };
+        return { norms: lengths.map(steady), shares, repeatable, unknown, joint, random, randomNorm: root, repeatableRadius: one, randomRadius: other, radius: all };
     };
 
     /**
      * Returns the total with another factor of a source, relative to its size now.
      * @param {Combined} errors @param {number} k @param {number[]} rows of the source @param {number} factor
      */
-    const rescaled = ({ repeatable, unknown, calibration, random }, k, rows, factor) => {
+    const rescaled = ({ norms, repeatable, unknown, joint, randomNorm }, k, rows, factor) => {
         const sum = isRandom[k] ? repeatable : repeatable.map((row, i) => row + (factor - 1) * rows[i]);
-        const square = isRandom[k] ? (factor * factor - 1) * norm(rows) ** 2 : 0;
-        if (report.study.criterion === "rss") return norm(sum) + Math.sqrt(Math.max(0, norm(random) ** 2 + square));
-        if (isCalibration(k)) return norm(worstCase(sum, unknown)) + factor * calibration;
+        const square = isRandom[k] ? (factor * factor - 1) * norms[k] ** 2 : 0;
+        if (report.study.criterion === "rss") return norm(sum) + Math.sqrt(Math.max(0, randomNorm ** 2 + square));
+        if (isJoint(k)) return norm(worstCase(sum, unknown)) + joint + (factor - 1) * norms[k];
         const at = isRandom[k] ? unknown.findIndex((vector) => vector.every((row, i) => row === rows[i])) : -1;
         const others = at < 0 ? unknown : unknown.map((vector, i) => (i === at ? vector.map((row) => factor * row) : vector));
-        return norm(worstCase(sum, others)) + calibration;
+        return norm(worstCase(sum, others)) + joint;
     };
-
-    /** Returns a row of a source; the last one, if the code has more, is a calibration. @param {Numbers} flat @param {number} k @param {number} i */
-    const rowOf = (flat, k, i) => (k < report.sources.length - 1 || flat.length === 6 * report.sources.length ? flat[6 * k + i]
-        : Math.hypot(...Array.from(flat).filter((_, at) => at >= 6 * k && at % 6 === i)));
 
     /** @param {State} state @returns {Errors} */
     const errors = (state) => {
         const result = source_displacements(state.q, state.s, inputs(state));
         const { displacements: flat, margin } = "margin" in result ? result : { displacements: result, margin: 1 };
         const rows = margin >= MINIMUM_MARGIN ? 6 : 3;
-        const displacements = report.sources.map((_, k) => {
+        const parts = report.sources.map((source, k) => {
             const size = sizeOf(state, k);
-            return [0, 1, 2, 3, 4, 5].map((i) => (i >= rows ? NaN : size === 0 ? 0 : size * rowOf(flat, k, i)));
+            return source.parts.map((part) => [0, 1, 2, 3, 4, 5].map((i) => (i >= rows ? NaN : size === 0 ? 0 : size * flat[6 * part + i])));
         });
-        const [position, orientation] = [combine(displacements, 0), combine(displacements, 3)];
+        const displacements = parts.map((own) => (own.length === 1 ? own[0] : own[0].map((_, i) => Math.hypot(...own.map((part) => part[i])))));
+        const [position, orientation] = [combine(displacements, parts, 0), combine(displacements, parts, 3)];
         const displacement = [...position.repeatable, ...orientation.repeatable];
         return { displacements, position, orientation, displacement, margin };
     };

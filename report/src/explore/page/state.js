@@ -10,9 +10,10 @@ import { exact, parseValue } from "./number.js";
 
 /**
  * An error source. `bound` is that of a random one as a multiple of its magnitude, `magnitude` the index of that of a
- * repeatable one among the inputs of the code, `value` its value, and `follows` the source whose factor applies, if one does.
+ * repeatable one among the inputs of the code, `value` its value, `follows` the source whose factor applies, if one does, and
+ * `parts` the sources of the code that are its own or parts of its error.
  * @typedef {{name: string, class: "repeatable" | "tolerance" | "random", distribution: string | null, bound: number, at: string,
- *     enabled: boolean, magnitude: number | null, value: number, follows: number | null, description: string}} Source
+ *     enabled: boolean, parts: number[], magnitude: number | null, value: number, follows: number | null, description: string}} Source
  */
 
 /**

@@ -1,4 +1,4 @@
-// The worst case over all signs: the farthest point of a zonotope.
+// The worst case over all signs: the farthest point of a zonotope, and the length of an error with several parts.
 
 /** @typedef {number[]} Vector */
 
@@ -43,4 +43,19 @@ export function worstCase(center, all) {
         }
     }));
     return longest;
+}
+
+/**
+ * Returns the largest norm of an error with several parts, `B x` with `‖x‖ ≤ 1`: the root of the largest eigenvalue of `B Bᵀ`.
+ * @param {Vector[]} parts @returns {number}
+ */
+export function longest(parts) {
+    const [xx, yy, zz, xy, xz, yz] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]].map(([i, j]) =>
+        parts.reduce((sum, part) => sum + part[i] * part[j], 0));
+    const mean = (xx + yy + zz) / 3;
+    const [a, b, c] = [xx - mean, yy - mean, zz - mean];
+    const spread = Math.sqrt((a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) / 6);
+    const determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+    const angle = Math.acos(Math.min(1, Math.max(-1, determinant / (2 * spread ** 3) || 0))) / 3;
+    return Math.sqrt(Math.max(0, mean + 2 * spread * Math.cos(angle)));
 }

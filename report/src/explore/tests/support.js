@@ -40,12 +40,14 @@ variable = { name = "q1", kind = "revolute" }
 transform = "Rz(q1) Tx(1 m)"
 `;
 const RANDOM = '\n[[source]]\nname = "encoder"\nclass = "random"\ndistribution = "normal"\njoint = "q1"\nerror = "1 mrad"\n';
+const BALLS = '\n[[source]]\nname = "bearing"\nclass = "tolerance"\ndistribution = "ball"\nframe = "turn"\ne_x = "0.2 mm"\ne_y = "0.3 mm"\ne_z = "0.3 mm"\n'
+    + '\n[[source]]\nname = "tilt"\nclass = "random"\ndistribution = "disc"\nframe = "turn"\ne_s = "1 mrad"\ne_p = "1 mrad"\n';
 const FIXED = PLAIN.replace(/variable.*\n/, "").replace("Rz(q1)", "Rz(1)");
 const REPEATABLE = '\n[[source]]\nname = "foot"\nclass = "repeatable"\nframe = "turn"\ne_x = "1 mm"\n';
 
 /**
  * Specs with what the shipped ones lack: tables, compliances, normal random sources, uncertain inputs and magnitudes, a
- * calibration, angles of IEC 61217, and names that a shell or an address could misread; no source, no joint, no limits.
+ * calibration, balls, angles of IEC 61217, and names that a shell or an address could misread; no source, no joint, no limits.
  */
 export function otherSpecs() {
     const root = new URL("../../../../", import.meta.url);
@@ -60,7 +62,7 @@ export function otherSpecs() {
     const disabled = uncalibrated.replace(beam, `${beam}\nenabled = false`);
     const folder = mkdtempSync(join(tmpdir(), "abbe-"));
     process.on("exit", () => rmSync(folder, { recursive: true }));
-    return [new URL("tests/specs/measured.toml", root).pathname].concat([everything, uncalibrated, disabled, PLAIN, PLAIN + RANDOM, FIXED + REPEATABLE].map((text, i) => {
+    return [new URL("tests/specs/measured.toml", root).pathname].concat([everything, uncalibrated, disabled, PLAIN, PLAIN + RANDOM, PLAIN + RANDOM + REPEATABLE + BALLS, FIXED + REPEATABLE].map((text, i) => {
         const path = join(folder, `the ${i}.toml`);
         writeFileSync(path, text);
         return path;

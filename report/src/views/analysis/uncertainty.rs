@@ -180,5 +180,7 @@ fn divisor(distribution: Distribution) -> &'static str {
         Distribution::Normal => "1",
         Distribution::Triangular => "√6",
         Distribution::Arcsine => "√2",
+        Distribution::Ball { parts: 2, .. } => "2",
+        Distribution::Ball { .. } => "√5",
     }
 }

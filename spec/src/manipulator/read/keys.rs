@@ -158,7 +158,7 @@ crate::tables! {
         "class": Choice(|| words(&CLASSES)), "-", "required",
             "Repeatable: a known value and sign. Tolerance: one fixed value in each machine, unknown within its bound. Random: another value at each visit of a configuration";
         "distribution": Choice(|| Distribution::ALL.map(Distribution::name).to_vec()), "-", "uniform for a tolerance; random sources must have it",
-            "Distribution of a tolerance over machines, or of a random source; its value is the half-width of a uniform or triangular distribution, the amplitude of an arcsine one, or the standard deviation of a normal one";
+            "Distribution of a tolerance over machines, or of a random source; its value is the half-width of a uniform or triangular distribution, the amplitude of an arcsine one, the standard deviation of a normal one, or the semi-axis of a disc or ball, in which two or three errors of a frame are evenly distributed together";
         "degrees_of_freedom": Number("number, positive"), "1", "none: the standard deviation is known",
             "Degrees of freedom of the standard deviation of a normal source, if it was estimated: n − 1 for n readings";
         "enabled": Boolean, "-", "`true`", "Includes the source; `--enable` and `--disable` change it for a run";

@@ -74,6 +74,30 @@ pub(super) fn input_uncertainties(
     uncertainties
 }
 
+/// Leaves the first component of each ball and disc in its source, and returns the other parts: a
+/// source for each.
+pub(super) fn parts_of_balls(sources: &mut [Source]) -> Vec<Source> {
+    let mut all = Vec::new();
+    for source in sources {
+        let Some(Distribution::Ball { parts, .. }) = source.class.distribution() else { continue };
+        let [Effect { cause: Cause::Errors(errors), .. }] = &mut source.effects[..] else { continue };
+        for (part, error) in (1..parts).zip(errors.split_off(1)) {
+            let distribution = Distribution::Ball { part, parts };
+            let class = match source.class {
+                Class::Tolerance(_) => Class::Tolerance(distribution),
+                _ => Class::Random(distribution),
+            };
+            let name = format!("{} ({})", source.name, error.0.name());
+            let effects = source
+                .effects
+                .iter()
+                .map(|effect| Effect { cause: Cause::Errors(vec![error.clone()]), ..effect.clone() });
+            all.push(Source { name, class, effects: effects.collect(), ..source.clone() });
+        }
+    }
+    all
+}
+
 fn read_source(
     section: &Section<'_>,
     name: String,
@@ -107,6 +131,21 @@ fn read_source(
     let (class, enabled, scale) = (class?, enabled?, scale?);
     if let Some(distribution) = class.distribution() {
         check_half_width(distribution, &effects, &deviations, document);
+        if let Distribution::Ball { parts, .. } = distribution {
+            let errors = match &effects[..] {
+                [Effect { cause: Cause::Errors(list), .. }] if deviations.is_empty() => list.len(),
+                _ => 0,
+            };
+            if errors != usize::from(parts) {
+                let name = distribution.name();
+                let message = format!("a {name} is the joint error of {parts} components of one frame");
+                let help = format!(
+                    "give the source {parts} of `e_x` … `e_p` of a `frame`, the semi-axes of the {name}, and nothing else"
+                );
+                let span = section.get("distribution").map_or(section.span.clone(), |item| item.span());
+                return document.refuse(span, message, help);
+            }
+        }
     }
     let source =
         Source { class, degrees_of_freedom, enabled, description, reference, ..Source::repeatable(name) };

@@ -21,7 +21,7 @@ use super::named::{Named, read_parent};
 use super::positive::check_signs;
 use super::rigid::check_rigid;
 use super::samples::depends;
-use super::sources::{input_uncertainties, read_sources};
+use super::sources::{input_uncertainties, parts_of_balls, read_sources};
 use super::sum_limits::read_sum_limits;
 use super::undetermined::read_undetermined;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
@@ -143,6 +143,8 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     let fitted = read_fitted(root, &declarations, document);
     let covariance = read_covariance(root, &sources, &declarations.scope, document);
     let undetermined = read_undetermined(root, &frames, &sources, &declarations.scope, document);
+    let parts = parts_of_balls(&mut sources);
+    sources.extend(parts);
     sources.extend(input_uncertainties(&declarations, &sources, document));
     raw_frames?;
     complete.then_some(())?;

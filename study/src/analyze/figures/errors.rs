@@ -9,12 +9,14 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Errors {
     pub(super) repeatable: [f64; 3],
     pub(super) random: [f64; 3],
+    /// Norm of the random part.
+    pub(super) random_norm: f64,
 }
 
 impl Errors {
     /// Returns the sum of both norms, as in the combined radius.
     pub(super) fn norm(&self) -> f64 {
-        norm(self.repeatable) + norm(self.random)
+        norm(self.repeatable) + self.random_norm
     }
 }
 

@@ -1,6 +1,6 @@
 //! Data of one figure while it is gathered.
 
-use abbe::analysis::{Configuration, Measurand, Row};
+use abbe::analysis::{Configuration, ErrorParts, Measurand, Row};
 use abbe::{Class, Description, Source};
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +53,7 @@ pub(super) struct FigureBuilder<'a> {
     pub(super) bounds: bool,
     /// The figure shows a single random source.
     random: bool,
+    parts: ErrorParts,
     data: PartialFigure,
 }
 
@@ -73,7 +74,7 @@ impl<'a> FigureBuilder<'a> {
         let is_random = |source: &Source| source.class != Class::Repeatable;
         let random = source.is_some_and(|source| is_random(&description.sources[source]));
         let bounds = random || source.is_none() && description.sources.iter().all(is_random);
-        Some(Self { figure, source, bounds, random, data })
+        Some(Self { figure, source, bounds, random, parts: ErrorParts::new(description), data })
     }
 
     /// Adds a configuration, if its rows of the measurand exist.
@@ -112,10 +113,19 @@ impl<'a> FigureBuilder<'a> {
 
     fn errors(&self, row: &Row) -> Errors {
         let rows = |deviation: &[f64; 6]| self.figure.measurand.rows(deviation);
-        match self.source.map(|source| rows(&row.sources[source])) {
-            None => Errors { repeatable: rows(&row.repeatable), random: rows(&row.random) },
-            Some(random) if self.random => Errors { repeatable: [0.0; 3], random },
-            Some(repeatable) => Errors { repeatable, random: [0.0; 3] },
+        match self.source {
+            None => Errors {
+                repeatable: rows(&row.repeatable),
+                random: rows(&row.random),
+                random_norm: row.random_norms[self.figure.measurand as usize],
+            },
+            Some(source) if self.random => {
+                let (random, random_norm) = self.parts.largest(source, row.sources, self.figure.measurand);
+                Errors { repeatable: [0.0; 3], random, random_norm }
+            }
+            Some(source) => {
+                Errors { repeatable: rows(&row.sources[source]), random: [0.0; 3], random_norm: 0.0 }
+            }
         }
     }
 

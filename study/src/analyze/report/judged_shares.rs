@@ -1,6 +1,6 @@
 //! Shares of the sources in the judged error.
 
-use abbe::analysis::ErrorDistribution;
+use abbe::analysis::{ErrorDistribution, SourceErrors};
 
 /// Shares of the sources in the judged error: of the judged machine, at the configuration of its
 /// verdict.
@@ -14,21 +14,19 @@ pub(in crate::analyze) struct JudgedShares {
 }
 
 impl JudgedShares {
-    /// Returns the shares in the error at a configuration. A calibration is the last source.
+    /// Returns the shares of the sources of a budget in the error at a configuration.
     pub(in crate::analyze) fn new(
         distribution: &ErrorDistribution,
         by_worst_case: bool,
         factor_for_all: Option<f64>,
-        sources: usize,
+        sources: &[SourceErrors],
     ) -> Self {
         let shares = if by_worst_case { distribution.worst_case().shares } else { distribution.shares() };
-        let mut sums = vec![0.0; sources];
-        for (source, share) in shares {
-            if let Some(sum) = sums.get_mut(source.min(sources.saturating_sub(1))) {
-                // Avoids −0.
-                *sum += share + 0.0;
-            }
-        }
-        Self { factor_for_all, shares: sums }
+        let of = |source: &SourceErrors| {
+            let own = shares.iter().filter(|(of, _)| *of == source.source).map(|(_, share)| share);
+            // Avoids −0.
+            own.sum::<f64>() + 0.0
+        };
+        Self { factor_for_all, shares: sources.iter().map(of).collect() }
     }
 }

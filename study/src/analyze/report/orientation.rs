@@ -74,7 +74,7 @@ impl OrientationReport {
         uncertainty: Option<UncertaintyBudget>,
     ) -> Self {
         let (sources, combined) = budget.errors(Measurand::Orientation);
-        let sources = spec.enabled_sources().zip(sources).zip(&judged.shares);
+        let sources = spec.whole_sources().zip(sources).zip(&judged.shares);
         let sources = sources.map(|((source, errors), share)| {
             let &SourceErrors { plain_max, half_peak_to_peak, relative_to_home, rms, worst, .. } = errors;
             let (name, worst) = (source.name.clone(), sites.variables(worst));

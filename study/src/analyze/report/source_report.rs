@@ -46,7 +46,7 @@ impl SourceReport {
     /// Creates the reports of all sources in a budget.
     pub(in crate::analyze) fn all(budget: &Budget, spec: &Spec, sites: &ErrorSites) -> Vec<Self> {
         let errors = budget.sources.iter().zip(&budget.orientation.sources);
-        let named = spec.enabled_sources().zip(errors).map(|(source, (errors, turned))| {
+        let named = spec.whole_sources().zip(errors).map(|(source, (errors, turned))| {
             let &SourceErrors { class, plain_max, half_peak_to_peak, relative_to_home, worst, .. } = errors;
             let Figures { x, y, z, .. } = turned.plain_max;
             Self {

@@ -14,7 +14,7 @@ fn points_are_few_and_evenly_spaced() {
         let mut points = Points::default();
         for i in range {
             let repeatable = [i as f64, 0.0, 0.0];
-            points.add(i, &Errors { repeatable, random: [0.0; 3] }, false, &configuration);
+            points.add(i, &Errors { repeatable, random: [0.0; 3], random_norm: 0.0 }, false, &configuration);
         }
         points
     };
