@@ -112,8 +112,6 @@ mod vectors;
 mod views;
 
 #[cfg(test)]
-mod coverage;
-#[cfg(test)]
 mod tests;
 
 pub use between_stations::{BetweenStations, between_stations};

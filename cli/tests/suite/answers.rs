@@ -3,6 +3,7 @@
 use abbe_manipulators::SHIPPED;
 use serde_json::Value;
 
+use super::analyses::{Analysis, analysis};
 use super::running::{abbe, json, narrow, prints, write};
 use super::workshop::Workshop;
 
@@ -14,9 +15,8 @@ fn is_one_screen(text: &str, command: &str) {
 #[test]
 fn shipped_manipulators_fit_one_screen() {
     for name in SHIPPED.iter().map(|shipped| shipped.name) {
-        for command in ["analyze", "check"] {
-            let text = prints(&[command, name]);
-            is_one_screen(&text, &format!("{command} {name}"));
+        for (command, text) in [("analyze", &analysis(name).screen), ("check", &prints(&["check", name]))] {
+            is_one_screen(text, &format!("{command} {name}"));
             assert!(text.lines().any(|line| line.starts_with("Next      ")), "{text}");
         }
     }
@@ -94,11 +94,10 @@ fn forty_joints_fit_one_screen() {
 #[test]
 fn the_difference_from_the_exact_chain_is_not_rounded_down() {
     for name in ["pps", "machine3", "panda"] {
-        let text = prints(&["analyze", name]);
-        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let Analysis { screen, report, .. } = analysis(name);
+        let text = screen.split_whitespace().collect::<Vec<_>>().join(" ");
         let (_, line) = text.split_once("differs by up to ").expect("a sentence");
         let shown: f64 = line.split(' ').next().unwrap().parse().unwrap();
-        let report = json(&["analyze", name, "--json"]);
         let metres = if report["length"] == "m" { 1e3 } else { 1.0 };
         let largest = metres * report["first_order"]["largest_difference"].as_f64().unwrap();
         assert!(shown >= largest && shown <= 1.1 * largest, "{name}: {shown} {largest}");

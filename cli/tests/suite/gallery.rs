@@ -9,7 +9,8 @@ use std::path::Path;
 use abbe_manipulators::MECHANISMS;
 use expect_test::expect_file;
 
-use super::running::{json, prints};
+use super::analyses::{Analysis, analysis};
+use super::running::json;
 
 /// Largest size of a picture, in bytes.
 const LARGEST_PICTURE: usize = 10_000;
@@ -31,7 +32,6 @@ fn the_page_shows_what_analyze_writes() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
     let pictures = docs.join("pictures/gallery");
     fs::create_dir_all(&pictures).unwrap();
-    let folder = tempfile::tempdir().unwrap();
     let (mut page, mut sections) = (HEAD.to_owned(), String::new());
     let listed = json(&["list", "--json"]);
     let listed = listed.as_array().expect("a list");
@@ -43,8 +43,7 @@ fn the_page_shows_what_analyze_writes() {
         if MECHANISMS.iter().any(|(known, _)| *known == name) {
             continue;
         }
-        let out = folder.path().join(name);
-        let screen = prints(&["analyze", name, "--out", out.to_str().unwrap()]);
+        let Analysis { screen, files, .. } = analysis(name);
         // The verdict, the figures and the sources: three blocks of the first screen.
         let blocks = screen.trim_end().split("\n\n").take(3).collect::<Vec<_>>();
         let figure = blocks[1].split_whitespace().skip(2).take(2).collect::<Vec<_>>().join(" ");
@@ -56,9 +55,9 @@ fn the_page_shows_what_analyze_writes() {
             ("manipulator", "", format!("Frames of the {title} at home")),
             ("pareto", "-sources", "Share of each of its sources".to_owned()),
         ] {
-            let picture = fs::read_to_string(out.join(written).with_extension("svg")).unwrap();
+            let picture = &files[&format!("{written}.svg")];
             assert!(picture.len() < LARGEST_PICTURE, "{name}: {} bytes", picture.len());
-            expect_file![pictures.join(format!("{name}{suffix}.svg"))].assert_eq(&picture);
+            expect_file![pictures.join(format!("{name}{suffix}.svg"))].assert_eq(picture);
             writeln!(sections, "![{caption}](pictures/gallery/{name}{suffix}.svg)").unwrap();
         }
         writeln!(sections, "\n```text\n$ abbe analyze {name}\n{}\n```", blocks.join("\n\n")).unwrap();

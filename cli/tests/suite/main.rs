@@ -2,6 +2,7 @@
 
 mod abuse;
 mod allocate;
+mod analyses;
 mod analyze;
 mod answers;
 mod bad_input;

@@ -153,26 +153,10 @@ const SINGLE: &str = "This code computes in single precision. Over 1000 configur
 
 /// Compilers that may assume that there is no NaN drop the checks; those that may reassociate sums
 /// break the reduction of angles.
-const REFUSED: &str = "\
-#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST)
-#error \"This code needs the arithmetic of IEEE 754: compile it without -ffast-math, /fp:fast and the like.\"
-#endif
-#if defined(__FINITE_MATH_ONLY__) && (__FINITE_MATH_ONLY__ > 0)
-#error \"This code recognizes NaN and infinity: compile it without -ffinite-math-only.\"
-#endif
-";
+const REFUSED: &str = include_str!("refused.h");
 
 /// `ABBE_PLAIN_SIZES` is for MISRA C, whose rule 17.6 has no `static`.
-const SIZES: &str = "\
-/* Sizes of arrays that functions take: at least so many elements. Arrays with ABBE_RESTRICT overlap no others. */
-#if defined(__cplusplus) || defined(ABBE_PLAIN_SIZES) || (defined(_MSC_VER) && !defined(__clang__))
-#define ABBE_SIZE(count) (count)
-#define ABBE_RESTRICT(count) (count)
-#else
-#define ABBE_SIZE(count) static (count)
-#define ABBE_RESTRICT(count) restrict static (count)
-#endif
-";
+const SIZES: &str = include_str!("sizes.h");
 
 const BEGIN: &str = "\
 #ifdef __cplusplus
@@ -314,17 +298,7 @@ fn ranges(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
     }
 }
 
-const IN_RANGE: &str = "\
-/* Returns 1 if every input is within its range, else 0. */
-static int inputs_are_in_range(const double *u)
-{
-    int inside = 1;
-    for (int k = 0; k < COUNT; k++) {
-        inside = (inside != 0 && u[k] >= NAME_ranges[k][0] && u[k] <= NAME_ranges[k][1]) ? 1 : 0;
-    }
-    return inside;
-}
-";
+const IN_RANGE: &str = include_str!("in_range.c");
 
 /// Prints the function of a lookup table.
 fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table, real: Real) {

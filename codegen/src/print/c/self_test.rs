@@ -185,44 +185,8 @@ fn upwards(bound: f64) -> f64 {
     text.parse().unwrap_or(bound)
 }
 
-const SUMS_TO: &str = "\
-/* Returns 1 if the sum of the numbers weighted 1 to 7 cyclically is as expected up to rounding, else 0. */
-static int sums_to(const double *numbers, int count, double expected, double rounding)
-{
-    double sum = 0.0;
-    for (int k = 0; k < count; k++) {
-        sum += (double)(k % 7 + 1) * numbers[k];
-    }
-    return (fabs(sum - expected) <= rounding) ? 1 : 0;
-}
-";
+const SUMS_TO: &str = include_str!("sums_to.c");
 
-const FOLLOWS_IEEE: &str = "\
-/* Returns 1 if infinity and NaN are recognized, and sums are computed in the order of the source, else 0. */
-static int follows_ieee(void)
-{
-    volatile double infinity = HUGE_VAL;
-    volatile double fraction = 0.4;
-    const double not_finite[2] = { infinity, infinity - infinity };
-    const double rounded = (fraction + ROUND) - ROUND;
-    const int is_refused = (are_below(not_finite, 1, HUGE_VAL) == 0 && are_below(&not_finite[1], 1, HUGE_VAL) == 0) ? 1 : 0;
-    return (is_refused != 0 && isnan(not_finite[1]) != 0 && fabs(rounded) < 0.25) ? 1 : 0;
-}
-";
+const FOLLOWS_IEEE: &str = include_str!("follows_ieee.c");
 
-const SINES_ARE_RIGHT: &str = "\
-/* Returns 1 if the sines and cosines of twelve angles, COUNT at a time, are as expected, else 0. */
-static int sines_by_COUNT_are_right(const double sines[36])
-{
-    double s[12];
-    double c[12];
-    int all = 1;
-    for (int k = 0; k < 12; k += COUNT) {
-        SIN_COS(sines[k], &s[k], &c[k]);
-    }
-    for (int k = 0; k < 12; k++) {
-        all *= (fabs(s[k] - sines[12 + k]) <= BOUND && fabs(c[k] - sines[24 + k]) <= BOUND) ? 1 : 0;
-    }
-    return all;
-}
-";
+const SINES_ARE_RIGHT: &str = include_str!("sines_are_right.c");

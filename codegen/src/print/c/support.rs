@@ -79,24 +79,6 @@ impl Support {
 }
 
 /// Compares without branches, so that compilers can vectorize the loop.
-pub(super) const ARE_BELOW: &str = "\
-/* Returns 1 if the absolute value of every number is below the limit, else 0; NaN is not. */
-static int are_below(const double *numbers, int count, double limit)
-{
-    unsigned wrong = 0U;
-    for (int k = 0; k < count; k++) {
-        wrong |= (fabs(numbers[k]) < limit) ? 0U : 1U;
-    }
-    return (wrong == 0U) ? 1 : 0;
-}
-";
+pub(super) const ARE_BELOW: &str = include_str!("are_below.c");
 
-const ONE_OF_BOTH: &str = "\
-static double NAME(double x)
-{
-    double sine_of_x;
-    double cosine_of_x;
-    sin_cos(x, &sine_of_x, &cosine_of_x);
-    return NAME_of_x;
-}
-";
+const ONE_OF_BOTH: &str = include_str!("one_of_both.c");

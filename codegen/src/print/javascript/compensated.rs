@@ -36,13 +36,7 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     printer.writer.close("}");
 }
 
-const HELPERS: &str = "\
-/** Checks the length of an argument, and that its numbers are finite. */
-function given(name, numbers, count, mayBeInfinite) {
-    if (numbers.length !== count) throw new RangeError(`${name}: expected ${count} numbers, found ${numbers.length}`);
-    if (!mayBeInfinite && !numbers.every(Number.isFinite)) throw new RangeError(`${name}: a number is not finite`);
-}
-";
+const HELPERS: &str = include_str!("given.js");
 
 /// Arguments that may be left out.
 const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have any size. With it, `change` and `largest` are \
@@ -50,17 +44,4 @@ const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have 
      argument has another length, a number is not finite or an input is outside its range.";
 
 /// Completes and checks the arguments.
-const CHECKS: &str = "\
-const { variables, parameters, inputs } = description;
-const either = (list, name) => list ?? variables.map((one) => (last === undefined ? Infinity : one[name]));
-[change, largest] = [either(change, 'change'), either(largest, 'largest')];
-last ??= variables.map(() => 0);
-[['q', q, variables], ['s', s, parameters], ['u', u, inputs], ['last', last, variables]].forEach(
-    ([name, numbers, list]) => given(name, numbers, list.length),
-);
-given('rotations', rotations, 3);
-[['change', change], ['largest', largest]].forEach((one) => given(...one, variables.length, true));
-inputs.forEach(({ name, range: [lower, upper] }, k) => {
-    if (u[k] < lower || u[k] > upper) throw new RangeError(`input ${name} is outside its range, ${lower} to ${upper}`);
-});
-";
+const CHECKS: &str = include_str!("checks.js");

@@ -38,23 +38,6 @@ const WITHOUT_LAST: &str = "Without last, no cycle precedes: corrections have an
      of the class if they are left out, and rotations is the whole pose. Raises an error if an argument has another number \
      of elements, a number is not finite or an input is outside its range.";
 
-const DEFAULTS: &str = "\
-if nargin < 4
-    [last, change, largest] = deal(zeros(1, COUNT), Inf(1, COUNT), Inf(1, COUNT));
-end
-if nargin == 4
-    change = CLASS.change;
-end
-if nargin == 4 || nargin == 5
-    largest = CLASS.largest;
-end
-if nargin < 7
-    rotations = [1 1 1];
-end";
+const DEFAULTS: &str = include_str!("defaults.m");
 
-const FINITE: &str = "\
-if ~all(isfinite([q(:); s(:); u(:); last(:); rotations(:)]))
-    error('abbe:finite', 'an argument is not finite');
-end
-[q, last, change, largest] = deal(q(:)', last(:)', change(:)', largest(:)');
-";
+const FINITE: &str = include_str!("finite.m");

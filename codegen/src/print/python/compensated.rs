@@ -40,17 +40,7 @@ const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have 
      a number is not finite or an input is outside its range";
 
 /// Sums have the same bits for one configuration and for many.
-const HELPERS: &str = r#"
-def _dot(a, b):
-    """Return the sum of the products of two lists, added one by one."""
-    return np.add.accumulate(a * b, axis=0)[-1] if len(a) > 0 else 0.0
-"#;
+const HELPERS: &str = include_str!("dot.py");
 
 /// Checks the arguments. Where a case does not hold, its statements may divide by 0.
-const CHECKS: &str = r#"q, s, u, last, change, largest, rotations = (
-    np.broadcast_to(array, array.shape[:1] + batch) for array in given
-)
-for name, array in {"q": q, "s": s, "u": u, "last": last, "rotations": rotations}.items():
-    if not np.all(np.isfinite(array)):
-        raise ValueError(f"{name}: a number is not finite")
-"#;
+const CHECKS: &str = include_str!("checks.py");

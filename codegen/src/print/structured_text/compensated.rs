@@ -35,18 +35,7 @@ pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, pref
 }
 
 /// Begins anew, and checks what no other block checks.
-const BEGIN: &str = "\
-IF reset THEN
-    FOR j := 0 TO LAST DO
-        last[j] := LREAL#0.0;
-    END_FOR;
-END_IF;
-sum := ABS(rotations[0]) + ABS(rotations[1]) + ABS(rotations[2]);
-IF NOT PREFIX_is_within(sum, LREAL#0.0, LREAL#1.0E30) THEN
-    status := 1;
-    RETURN;
-END_IF;
-";
+const BEGIN: &str = include_str!("begin.st");
 
 /// Prints inputs and outputs.
 fn interface(writer: &mut Writer, spec: &Spec, description: &Description) {

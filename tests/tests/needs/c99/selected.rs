@@ -35,14 +35,13 @@ pub(crate) fn are_alone() -> Result<(), Missing> {
             (Real::Double, &["covariance"]),
         ] {
             let folder = tempfile::tempdir().unwrap();
-            let mut sources = Vec::new();
+            let mut objects = Vec::new();
             for name in ["left", "right"] {
                 let spec = Spec { name: name.to_owned(), ..spec.clone() };
                 write_files(folder.path(), Language::C(real).files_of(&spec, only));
-                sources.push(folder.path().join(format!("{name}.c")));
-                let object = folder.path().join("object.o");
+                let [source, object] = ["c", "o"].map(|end| folder.path().join(format!("{name}.{end}")));
                 let mut compile = Command::new("gcc");
-                compile.args(STRICT).arg("-c").arg(&sources[sources.len() - 1]).arg("-o").arg(&object);
+                compile.args(STRICT).arg("-c").arg(&source).arg("-o").arg(&object);
                 succeeds(&mut compile);
                 let defined = succeeds(Command::new("nm").args(["--defined-only", "-g"]).arg(&object));
                 let defined = String::from_utf8(defined).unwrap();
@@ -53,6 +52,7 @@ pub(crate) fn are_alone() -> Result<(), Missing> {
                     .collect();
                 let wanted = only.iter().copied().chain(["self_test"]);
                 assert_eq!(found, wanted.map(|function| format!("{name}_{function}")).collect());
+                objects.push(object);
             }
             let main = folder.path().join("main.c");
             let text = "#include \"left.h\"\n#include \"right.h\"\n\
@@ -60,7 +60,7 @@ pub(crate) fn are_alone() -> Result<(), Missing> {
             fs::write(&main, text).unwrap();
             let program = folder.path().join("program");
             let mut compile = Command::new("gcc");
-            compile.args(STRICT).arg(&main).args(&sources).arg("-lm").arg("-o").arg(&program);
+            compile.args(STRICT).arg(&main).args(&objects).arg("-lm").arg("-o").arg(&program);
             succeeds(&mut compile);
             assert!(Command::new(&program).status().unwrap().success(), "{} {only:?}", spec.name);
         }

@@ -6,7 +6,6 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::*;
 use crate::by_hand::Pps;
-use abbe_analysis::{Workspace, joint_samples};
 
 /// Returns the options of `identify`: errors are expected to be below a hundredth of the arm.
 fn options(model: &Model, loss: Loss) -> Options {
