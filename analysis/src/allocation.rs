@@ -11,8 +11,8 @@
 //! ```
 //!
 //! since a norm is the largest product with a unit vector, and each product is largest at an end of
-//! its range; an error with several parts adds its largest norm in any direction. Both are convex, homogeneous and nondecreasing in x ≥ 0: if `W(x) ≤ 1` then
-//! `W(x′) ≤ 1` for all `x′ ≤ x`. In (1) the largest `a(q,n)·x` has n along the longest vector of
+//! its range; an error with several parts adds its largest norm in any direction. Both are convex,
+//! homogeneous and nondecreasing in x ≥ 0: if `W(x) ≤ 1` then `W(x′) ≤ 1` for all `x′ ≤ x`. In (1) the largest `a(q,n)·x` has n along the longest vector of
 //! the zonotope with the centre `Σ x_k v_k/2` over repeatable sources, the half-edges `x_k v_k/2`
 //! of these and `x_k v_k` of the others. By Euler `R(x) = ∇R(x)·x`, and `∇R(x)·x′ ≤ R(x′)` as R is
 //! convex. So each x that exceeds the tolerance gives a cut `a·x′ ≤ 1`, `a ≥ 0`, which holds for
@@ -63,8 +63,8 @@ pub struct ErrorRow {
     pub configuration: usize,
     /// Position or orientation.
     pub measurand: Measurand,
-    /// Error of each source at the factor 1, divided by the tolerance; of an error with several parts
-    /// a vector with its largest norm, and zeros.
+    /// Error of each source at the factor 1, divided by the tolerance; of an error with several
+    /// parts a vector with its largest norm, and zeros.
     pub errors: Vec<[f64; 3]>,
 }
 
@@ -127,7 +127,7 @@ impl Allocator {
                     center = core::array::from_fn(|i| center[i] + edge[i] / 2.0);
                     edges.push(edge.map(|edge| edge / 2.0));
                 }
-                false if is_linear && source.is_joint => {}
+                false if is_linear && source.has_parts => {}
                 false if is_linear => edges.push(edge),
                 false => square += norm(edge).powi(2),
             }
@@ -139,7 +139,7 @@ impl Allocator {
             let along = product(&longest, v) / length;
             slopes[source.follows] += match source.is_repeatable {
                 true => along.max(0.0),
-                false if is_linear && source.is_joint => norm(*v),
+                false if is_linear && source.has_parts => norm(*v),
                 false if is_linear => along.abs(),
                 false => factors[source.follows] * norm(*v).powi(2) / root,
             };

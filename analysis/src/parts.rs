@@ -28,17 +28,17 @@ impl ErrorParts {
 
     /// Returns the sources that are parts of the error of a source, itself first; none of a source
     /// that is a part of another's error.
-    pub fn of(&self, source: usize) -> &[usize] {
+    pub fn parts_of(&self, source: usize) -> &[usize] {
         &self.of[source]
     }
 
     /// Iterates over the errors with several parts.
-    pub fn joint(&self) -> impl Iterator<Item = &[usize]> {
+    pub fn with_parts(&self) -> impl Iterator<Item = &[usize]> {
         self.of.iter().filter(|parts| parts.len() > 1).map(Vec::as_slice)
     }
 
-    /// Draws the error of a source of magnitude 1, and passes the indices and values of its parts to
-    /// `put`: all of a ball at its first part, and none at the others.
+    /// Draws the error of a source of magnitude 1, and passes the indices and values of its parts
+    /// to `put`: all of a ball at its first part, and none at the others.
     pub fn draw(
         &self,
         source: usize,
@@ -50,7 +50,7 @@ impl ErrorParts {
             Distribution::Ball { part: 1.., .. } => {}
             Distribution::Ball { .. } => {
                 let drawn = draw_parts(distribution, random);
-                self.of(source).iter().zip(drawn).for_each(|(part, value)| put(*part, value));
+                self.parts_of(source).iter().zip(drawn).for_each(|(part, value)| put(*part, value));
             }
             _ => put(source, draw(distribution, random)),
         }
@@ -60,11 +60,11 @@ impl ErrorParts {
     /// of a source, given ΔX of all sources at their bounds. Rows of an error with one part keep
     /// their signs.
     pub fn largest(&self, source: usize, sources: &[[f64; 6]], measurand: Measurand) -> ([f64; 3], f64) {
-        if let [own] = self.of(source) {
+        if let [own] = self.parts_of(source) {
             let rows = measurand.rows(&sources[*own]);
             return (rows, norm(rows));
         }
-        let matrix = outer_sum(self.of(source).iter().map(|part| measurand.rows(&sources[*part])));
+        let matrix = outer_sum(self.parts_of(source).iter().map(|part| measurand.rows(&sources[*part])));
         ([0, 1, 2].map(|i| matrix[i][i].sqrt()), longest(matrix))
     }
 }

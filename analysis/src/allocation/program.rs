@@ -18,7 +18,7 @@ pub struct ScalableSource {
     /// Indicates that the sign of its errors is known.
     pub is_repeatable: bool,
     /// Indicates an error with several parts, which may have any direction.
-    pub is_joint: bool,
+    pub has_parts: bool,
     /// Index of the source whose factor it has; its own index for most.
     pub follows: usize,
     /// Cost c of the factor 1.

@@ -12,7 +12,7 @@ const CRITERIA: [AllocationCriterion; 2] =
 fn source(k: usize) -> ScalableSource {
     ScalableSource {
         is_repeatable: false,
-        is_joint: false,
+        has_parts: false,
         follows: k,
         cost: 1.0,
         exponent: 1.0,
@@ -32,7 +32,7 @@ fn random_problem(seed: u64, criterion: AllocationCriterion) -> Allocator {
     let mut sources: Vec<ScalableSource> = (0..count)
         .map(|k| ScalableSource {
             is_repeatable: random.random_bool(0.5),
-            is_joint: false,
+            has_parts: false,
             cost: random.random_range(0.1..10.0),
             exponent: random.random_range(0.3..3.0),
             ..source(k)
@@ -192,7 +192,7 @@ fn a_tolerance_that_is_kept_changes_nothing() {
 /// 1/x_2` at 1 and 1/2, wherever the errors point.
 #[test]
 fn a_factor_just_at_its_limit_is_found() {
-    let sources = vec![source(0), ScalableSource { is_joint: true, ..source(1) }];
+    let sources = vec![source(0), ScalableSource { has_parts: true, ..source(1) }];
     let mut problem = Allocator::new(AllocationCriterion::WorstCase, sources);
     problem.rows.push(row(vec![[0.0, 1.0 / 3.0, 0.0], [4.0 / 3.0, 0.0, 0.0]]));
     let Allocation { factors, residual, .. } = problem.solve().unwrap();

@@ -43,13 +43,13 @@ impl<R: Register> OverSignsAccumulator<R> {
     #[inline(always)]
     pub(super) fn add(&mut self, rows: &[Lanes<R>], sums: &Sums<R>) {
         let simple = sums.repeatable_norm + sums.random_norms;
-        let bound = (peak::square(sums.worst_case).sqrt() + sums.joint).min(simple);
+        let bound = (peak::square(sums.worst_case).sqrt() + sums.with_parts).min(simple);
         if self.unknown.is_empty() {
             self.found.add(simple, sums.place);
         } else if peak::largest(bound) > self.most {
             let longest =
                 if self.unknown.len() > PAIRS { self.apart(rows, sums) } else { self.pairs(rows, sums) };
-            let worst = longest + sums.joint;
+            let worst = longest + sums.with_parts;
             self.most = self.most.max(peak::largest(worst));
             self.found.add(worst, sums.place);
         }

@@ -25,7 +25,7 @@ pub(super) struct Sums<R: Register> {
     pub(super) worst_case: [Lanes<R>; 3],
     pub(super) random_norms: Lanes<R>,
     /// Σ of the largest norms of errors with several parts.
-    pub(super) joint: Lanes<R>,
+    pub(super) with_parts: Lanes<R>,
     /// `Σ c b bᵀ` of the random sources: xx, yy, zz, xy, xz, yz.
     pub(super) covariance: [Lanes<R>; 6],
 }
@@ -35,7 +35,7 @@ impl<R: Register> Sums<R> {
     /// with six rows per source.
     #[inline(always)]
     pub(super) fn new(
-        SourceKinds { classes, joint: groups, is_part }: &SourceKinds,
+        SourceKinds { classes, with_parts: all, is_part }: &SourceKinds,
         rows: &[Lanes<R>],
         place: Lanes<R>,
         weight: Lanes<R>,
@@ -69,10 +69,10 @@ impl<R: Register> Sums<R> {
                 }
             }
         }
-        let mut joint = zero;
-        for parts in groups {
-            let (along, norm) = joint_error(parts, rows);
-            (joint, random_square) = (joint + norm, norm.mul_add(norm, random_square));
+        let mut with_parts = zero;
+        for parts in all {
+            let (along, norm) = error_with_parts(parts, rows);
+            (with_parts, random_square) = (with_parts + norm, norm.mul_add(norm, random_square));
             worst_case = plus(worst_case, along);
         }
         let [x, y, z] = repeatable;
@@ -90,8 +90,8 @@ impl<R: Register> Sums<R> {
             random_norm,
             radius: repeatable_norm + random_norm,
             worst_case,
-            random_norms: random_norms + joint,
-            joint,
+            random_norms: random_norms + with_parts,
+            with_parts,
             covariance,
         }
     }
@@ -102,24 +102,24 @@ impl<R: Register> Sums<R> {
 pub(super) struct SourceKinds {
     pub(super) classes: Vec<Class>,
     /// Sources of each error with several parts.
-    pub(super) joint: Vec<Vec<usize>>,
+    pub(super) with_parts: Vec<Vec<usize>>,
     pub(super) is_part: Vec<bool>,
 }
 
 impl SourceKinds {
     pub(super) fn new(description: &Description) -> Self {
         let parts = ErrorParts::new(description);
-        let joint: Vec<Vec<usize>> = parts.joint().map(<[usize]>::to_vec).collect();
-        let is_part = |k: usize| joint.iter().any(|parts| parts.contains(&k));
+        let with_parts: Vec<Vec<usize>> = parts.with_parts().map(<[usize]>::to_vec).collect();
+        let is_part = |k: usize| with_parts.iter().any(|parts| parts.contains(&k));
         let is_part = (0..description.sources.len()).map(is_part).collect();
-        Self { classes: description.sources.iter().map(|source| source.class).collect(), joint, is_part }
+        Self { classes: description.sources.iter().map(|source| source.class).collect(), with_parts, is_part }
     }
 }
 
 /// Returns the largest values along the rows and the largest norm of an error with several parts.
 #[cold]
 #[inline(never)]
-fn joint_error<R: Register>(parts: &[usize], rows: &[Lanes<R>]) -> ([Lanes<R>; 3], Lanes<R>) {
+fn error_with_parts<R: Register>(parts: &[usize], rows: &[Lanes<R>]) -> ([Lanes<R>; 3], Lanes<R>) {
     let at = |lane: usize| {
         let part = |k: &usize| [0, 1, 2].map(|row| rows[6 * k + row].to_slice()[lane]);
         parts::outer_sum(parts.iter().map(part))

@@ -250,7 +250,7 @@ impl<'a> Block<'a> {
                     x * x + y * y + z * z - norm * norm
                 };
                 let rows = measurand.rows(&squares).iter().sum::<f64>();
-                (rows - self.parts.joint().map(excess).sum::<f64>()).max(0.0).sqrt()
+                (rows - self.parts.with_parts().map(excess).sum::<f64>()).max(0.0).sqrt()
             });
             let (random, oriented) = (squares.map(f64::sqrt), self.is_oriented(place));
             let sources = &sources[..];

@@ -132,15 +132,15 @@ impl ErrorDistribution {
     /// Returns the largest error over all signs, `max ‖bias + Σ ± ρ + Σ ± b‖`, with residuals of
     /// unknown direction, balls, and the calibration at their largest norms in its direction.
     pub fn worst_case(&self) -> WorstCase {
-        let random = self.random.iter().filter(|one| !one.is_calibration && !one.is_joint());
+        let random = self.random.iter().filter(|one| !one.is_calibration && !one.has_parts());
         let random = random.map(|one| (one.source, one.at([one.distribution.bound(), 0.0, 0.0])));
         let unknown: Vec<(usize, [f64; 3])> = random.chain(self.signed.iter().copied()).collect();
         let vectors: Vec<[f64; 3]> = unknown.iter().map(|(_, vector)| *vector).collect();
         let longest = worst_case(self.bias, &vectors);
-        let joint =
-            self.random.iter().filter(|one| one.is_joint()).map(|one| (Some(one.source), one.bound()));
-        let joint: Vec<(Option<usize>, f64)> = joint.chain(self.calibration()).collect();
-        let undirected = || self.undirected.iter().copied().chain(joint.iter().copied());
+        let with_parts =
+            self.random.iter().filter(|one| one.has_parts()).map(|one| (Some(one.source), one.bound()));
+        let with_parts: Vec<(Option<usize>, f64)> = with_parts.chain(self.calibration()).collect();
+        let undirected = || self.undirected.iter().copied().chain(with_parts.iter().copied());
         let norm = norm(longest) + undirected().map(|(_, norm)| norm).sum::<f64>();
         let along = |v: [f64; 3]| (0..3).map(|i| longest[i] * v[i]).sum::<f64>() / self::norm(longest) / norm;
         let fixed = self.fixed.iter().map(|(source, v)| (*source, along(*v)));

@@ -113,13 +113,13 @@ impl RandomError {
     }
 
     /// Returns whether it has several parts, and no direction of its own.
-    pub(super) fn is_joint(&self) -> bool {
+    pub(super) fn has_parts(&self) -> bool {
         matches!(self.distribution, Distribution::Ball { .. })
     }
 
     /// Returns the largest norm of ΔX at its bound.
     pub(super) fn bound(&self) -> f64 {
-        match self.is_joint() {
+        match self.has_parts() {
             true => longest(outer_sum(self.parts.into_iter())),
             false => self.distribution.bound() * norm(self.parts[0]),
         }

@@ -54,8 +54,9 @@ impl Magnitude {
 ///
 /// The largest norm of a sum `Σ t_i v_i` with every `t_i` from −1 to 1 is the largest value of `Σ
 /// |u·v_i|` over all unit vectors u. A ball or disc with the parts `B = [b_1 b_2 …]` adds `‖Bᵀu‖`,
-/// which is its radius for a displacement that is as large in all directions. Norms of several sources are therefore nodes of the two angles
-/// of u, too, the [`DIRECTION`], and are to be maximized over these.
+/// which is its radius for a displacement that is as large in all directions. Norms of several
+/// sources are therefore nodes of the two angles of u, too, the [`DIRECTION`], and are to be
+/// maximized over these.
 #[derive(Clone, Debug)]
 pub struct Magnitudes {
     /// The graph of the nodes.
@@ -152,7 +153,7 @@ impl Magnitudes {
             repeatable: sizes_apart(g, &errors),
             random: Vec::new(),
         };
-        // Each random source has a place, and all parts of a ball or disc have that of its first one.
+        // All parts of a ball or disc have the place of its first one, other sources their own.
         let (mut random, mut places) = (Vec::new(), Vec::new());
         let by_source = errors_by_source(zero, spec, &effects);
         let enabled = spec.sources.iter().enumerate().filter(|(_, source)| source.enabled);
@@ -167,9 +168,9 @@ impl Magnitudes {
             }
         }
         let mut radius = zero;
-        let joint: Vec<usize> =
+        let balls: Vec<usize> =
             (0..spec.sources.len()).filter(|k| places.iter().filter(|at| *at == k).count() == 3).collect();
-        for place in joint {
+        for place in balls {
             let parts =
                 || places.iter().zip(&random).filter(|(at, _)| **at == place).map(|(_, errors)| errors);
             if let Some(own) = radius_of(zero, parts()) {
@@ -196,8 +197,8 @@ impl Magnitudes {
             let symbols = g.symbols(kind.concat().as_flattened());
             let is_constant = symbols.iter().all(|symbol| matches!(symbol, Symbol::Parameter(_)));
             let most_signed = if is_constant { MOST_SIGNED } else { 0 };
-            let is_joint = |place: &usize| places.iter().filter(|other| *other == place).count() > 1;
-            let most_signed = if places.iter().any(is_joint) { 0 } else { most_signed };
+            let has_parts = |place: &usize| places.iter().filter(|other| *other == place).count() > 1;
+            let most_signed = if places.iter().any(has_parts) { 0 } else { most_signed };
             let [norm, x, y, z, turn] = largest_of(g, &moved, &places, most_signed);
             let across_z = largest_across_z(g, &moved, &places, most_signed);
             let [norm, x, y, z, across_z] = [norm, x, y, z, across_z].map(|sum| sum.and_radius(g, radius));

@@ -422,10 +422,10 @@ impl Source {
     }
 }
 
-/// Returns the index of the source of whose error source k is a part, given the class of each source
-/// and whether it belongs to a calibration: the first part of the same ball or disc, or of the
-/// calibration; all other sources are whole. Balls have their other parts in the order of the first
-/// ones.
+/// Returns the index of the source of whose error source k is a part, given the class of each
+/// source and whether it belongs to a calibration: the first part of the same ball or disc, or of
+/// the calibration; all other sources are whole. Balls have their other parts in the order of the
+/// first ones.
 pub fn whole(k: usize, class: impl Fn(usize) -> Class, is_calibration: impl Fn(usize) -> bool) -> usize {
     let part = |i: usize| match class(i).distribution() {
         Some(Distribution::Ball { part, parts }) => Some((part, parts)),

@@ -5,14 +5,14 @@
 //! during the sweep, and `first_order` compares with the exact chain.
 //!
 //! `unreachable` has the reasons, `loop_condition` the loops, and `singular` the Euler angles.
-//! `joint_errors` are those of several sources, `compensated` the machine after compensation, and `judgement`
-//! holds both machines against the tolerances.
+//! `errors_with_parts` are those of several sources, `compensated` the machine after compensation,
+//! and `judgement` holds both machines against the tolerances.
 
 mod compensated;
+mod errors_with_parts;
 pub mod figures;
 mod first_order;
 mod job;
-mod joint_errors;
 mod judgement;
 mod loop_condition;
 pub mod options;

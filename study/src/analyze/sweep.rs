@@ -12,9 +12,9 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
+use super::errors_with_parts::LargestWithParts;
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
-use super::joint_errors::LargestJointErrors;
 use super::loop_condition::LoopCondition;
 use super::report::{
     AfterCompensation, CombinedReport, Comparison, CompensationBasis, ErrorSites, Ledger, MonteCarloErrors,
@@ -41,7 +41,7 @@ pub(super) struct PartialAnalysis {
     /// Data of the error sources.
     pub(super) budget: PartialBudget,
     /// Errors with several parts.
-    joint: LargestJointErrors,
+    with_parts: LargestWithParts,
     /// Data of the figures; `None` if they were not requested.
     figures: Option<Vec<PartialFigure>>,
 }
@@ -73,15 +73,15 @@ impl AnalysisSweep<'_> {
         let builder = self.figures.then(|| FiguresBuilder::new(self.study, self.manipulator.description()));
         notes.progress(0, range.len());
         let parts = self.parts();
-        let joint = LargestJointErrors::new(&parts);
-        let mut observer = SweepObserver { rows, joint, parts, builder, notes, range: range.clone() };
+        let with_parts = LargestWithParts::new(&parts);
+        let mut observer = SweepObserver { rows, with_parts, parts, builder, notes, range: range.clone() };
         let budget = self.budget.part(chunks, &mut observer);
-        let SweepObserver { joint, builder, notes, .. } = observer;
+        let SweepObserver { with_parts, builder, notes, .. } = observer;
         notes.progress(range.len(), range.len());
         let budget = budget.map_err(|refused| self.not_evaluated(&refused))?;
         // An interrupted sweep returns an incomplete part; do not use it.
         notes.go_on()?;
-        Ok(PartialAnalysis { budget, joint, figures: builder.map(FiguresBuilder::data) })
+        Ok(PartialAnalysis { budget, with_parts, figures: builder.map(FiguresBuilder::data) })
     }
 
     fn parts(&self) -> ErrorParts {
@@ -90,7 +90,7 @@ impl AnalysisSweep<'_> {
 
     /// Returns whether data can belong to this sweep. They may come from a file.
     pub(super) fn fits(&self, data: &PartialAnalysis) -> bool {
-        data.joint.fits(&self.parts(), self.workspace.len()) && self.budget.fits(&data.budget)
+        data.with_parts.fits(&self.parts(), self.workspace.len()) && self.budget.fits(&data.budget)
     }
 
     /// Appends the data of the chunks that follow. Returns false if they do not follow or have
@@ -106,7 +106,7 @@ impl AnalysisSweep<'_> {
         };
         let Some(figures) = figures else { return false };
         all.figures = figures;
-        all.joint.append(&next.joint);
+        all.with_parts.append(&next.with_parts);
         all.budget.append(next.budget).is_ok()
     }
 
@@ -115,7 +115,7 @@ impl AnalysisSweep<'_> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
         let spec = &named_as_one(&machine.spec);
         let mut budget = self.budget.finish(data.budget);
-        data.joint.replace_parts(&mut budget, &self.parts());
+        data.with_parts.replace_parts(&mut budget, &self.parts());
         self.require_reached(&budget)?;
         self.require_oriented(&budget)?;
         notes.go_on()?;
@@ -322,7 +322,7 @@ impl AnalysisSweep<'_> {
 /// Observer of the sweep: passes each configuration on, and reports progress.
 struct SweepObserver<'r, 'n, 'g> {
     rows: Option<&'r mut dyn FnMut(&Row)>,
-    joint: LargestJointErrors,
+    with_parts: LargestWithParts,
     parts: ErrorParts,
     builder: Option<FiguresBuilder<'g>>,
     notes: &'n mut dyn Notes,
@@ -332,12 +332,12 @@ struct SweepObserver<'r, 'n, 'g> {
 
 impl Watch for SweepObserver<'_, '_, '_> {
     fn rows(&self) -> bool {
-        self.rows.is_some() || !self.joint.is_empty() || self.builder.is_some()
+        self.rows.is_some() || !self.with_parts.is_empty() || self.builder.is_some()
     }
 
     fn row(&mut self, row: &Row) {
         self.rows.iter_mut().for_each(|show| show(row));
-        self.joint.add(row, &self.parts);
+        self.with_parts.add(row, &self.parts);
         self.builder.iter_mut().for_each(|builder| builder.add(row));
     }
 

@@ -86,7 +86,7 @@ impl Factors<'_> {
                     let Some(tolerance) = tolerance else { continue };
                     let errors = row.sources.iter().map(|error| measurand.rows(error).map(|e| e / tolerance));
                     let mut errors: Vec<[f64; 3]> = errors.collect();
-                    for own in parts.joint() {
+                    for own in parts.with_parts() {
                         let (_, norm) = parts.largest(own[0], row.sources, measurand);
                         own.iter().for_each(|part| errors[*part] = [0.0; 3]);
                         errors[own[0]][0] = norm / tolerance;
@@ -152,8 +152,8 @@ impl Factors<'_> {
             let limits = if is_fixed { [1.0; 2] } else { [LEAST, if self.loosen { MOST } else { 1.0 }] };
             let is_repeatable = source.class == Class::Repeatable;
             let followed = followed_source(spec, index).and_then(|index| spec.enabled_index(index));
-            let (follows, is_joint) = (followed.unwrap_or(own), parts.of(own).len() > 1);
-            ScalableSource { is_repeatable, is_joint, follows, cost, exponent, limits }
+            let (follows, has_parts) = (followed.unwrap_or(own), parts.parts_of(own).len() > 1);
+            ScalableSource { is_repeatable, has_parts, follows, cost, exponent, limits }
         };
         enabled.enumerate().map(scalable).collect()
     }

@@ -47,12 +47,11 @@ fn study(machine: &Machine, keys: &str, workspace: &str) -> Study {
 
 fn analyzed(machine: &Machine, keys: &str) -> Report {
     let study = study(machine, keys, "[workspace.joints]\nsamples = 30\n");
-    let mut job = Analyze::new(machine.clone(), study);
-    job.run(&mut ()).unwrap()
+    Analyze::new(machine.clone(), study).run(&mut ()).unwrap()
 }
 
-/// Of a chain in series, a ball with one radius adds this radius to the worst case at every
-/// configuration, whatever frame it belongs to, and nothing to the orientation. It is one source of
+/// A ball with one radius adds this radius to the worst case of a chain at every configuration,
+/// whatever frame it belongs to, and nothing to the orientation. It is one source of
 /// every table, can be switched and scaled by its name, and `bound` finds the same.
 #[test]
 fn a_ball_adds_its_radius_to_a_chain() {
@@ -133,7 +132,8 @@ fn a_ball_has_one_factor() {
 }
 
 /// A disc of radius r in the plane of x and y: along any direction of the plane the probability of
-/// being within t is `(2/π) (t √(1 − t²) + asin t)`, of being within a circle t², with t in units of r.
+/// being within t is `(2/π) (t √(1 − t²) + asin t)`, of being within a circle t², with t in units
+/// of r.
 #[test]
 fn a_disc_has_its_probability() {
     let slide = "[manipulator]\nname = \"slide\"\nlength = \"mm\"\n[[frame]]\nname = \"slide\"\nvariable = { name = \

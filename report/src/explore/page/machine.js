@@ -10,7 +10,7 @@ import { longest as longestOf, worstCase } from "./worst_case.js";
  * Errors of position (length unit) or orientation (rad): norm of each source and its signed share of the total, Σ of the
  * repeatable sources, vectors of the others, sum of the largest norms of errors with several parts, root sum of squares by rows and of norms, and the norm of the former sum. The total is the worst case over all signs, or the sum of both norms if
  * the study is judged by root sum of squares; the others have the rest of it.
- * @typedef {{norms: number[], shares: number[], repeatable: number[], unknown: number[][], joint: number,
+ * @typedef {{norms: number[], shares: number[], repeatable: number[], unknown: number[][], ofParts: number,
  *     random: number[], randomNorm: number, repeatableRadius: number, randomRadius: number,
  *     radius: number}} Combined
  */
@@ -67,7 +67,7 @@ export function createMachine(generated, report) {
     const isRandom = report.sources.map((source) => source.class !== "repeatable");
 
     /** Returns whether an error has several parts, and any direction. @param {number} k */
-    const isJoint = (k) => report.sources[k].parts.length > 1;
+    const hasParts = (k) => report.sources[k].parts.length > 1;
 
     /** Returns the inputs of the code: those of the spec, then the magnitudes of sources. @param {State} state */
     const inputs = (state) => {
@@ -88,12 +88,12 @@ export function createMachine(generated, report) {
     const combine = (displacements, parts, first) => {
         const [repeatable, squares] = [[0, 0, 0], [0, 0, 0]];
         const unknown = /** @type {number[][]} */ ([]);
-        let joint = 0;
+        let ofParts = 0;
         let square = 0;
         const lengths = displacements.map((displacement, k) => {
             const rows = displacement.slice(first, first + 3);
-            const length = isJoint(k) ? longestOf(parts[k].map((part) => part.slice(first, first + 3))) : norm(rows);
-            if (isJoint(k)) joint += length;
+            const length = hasParts(k) ? longestOf(parts[k].map((part) => part.slice(first, first + 3))) : norm(rows);
+            if (hasParts(k)) ofParts += length;
             else if (isRandom[k]) unknown.push(rows);
             if (isRandom[k]) square += length * length;
             rows.forEach((row, i) => (isRandom[k] ? (squares[i] += row * row) : (repeatable[i] += row)));
@@ -103,29 +103,29 @@ export function createMachine(generated, report) {
         const [own, root] = [norm(repeatable), Math.sqrt(square)];
         const isSum = report.study.criterion === "rss";
         const longest = isSum ? repeatable : worstCase(repeatable, unknown);
-        const total = isSum ? own + root : norm(longest) + joint;
+        const total = isSum ? own + root : norm(longest) + ofParts;
         const along = (/** @type {number[]} */ rows) => (longest[0] * rows[0] + longest[1] * rows[1] + longest[2] * rows[2]) / norm(longest);
         const shares = displacements.map((displacement, k) => {
             const rows = displacement.slice(first, first + 3);
-            const part = !isRandom[k] ? along(rows) : isSum ? lengths[k] ** 2 / root : isJoint(k) ? lengths[k] : Math.abs(along(rows));
+            const part = !isRandom[k] ? along(rows) : isSum ? lengths[k] ** 2 / root : hasParts(k) ? lengths[k] : Math.abs(along(rows));
             return (part || 0) / total || 0;
         });
         const [all, one, other] = [total, own, total - own].map(steady);
-        return { norms: lengths.map(steady), shares, repeatable, unknown, joint, random, randomNorm: root, repeatableRadius: one, randomRadius: other, radius: all };
+        return { norms: lengths.map(steady), shares, repeatable, unknown, ofParts, random, randomNorm: root, repeatableRadius: one, randomRadius: other, radius: all };
     };
 
     /**
      * Returns the total with another factor of a source, relative to its size now.
      * @param {Combined} errors @param {number} k @param {number[]} rows of the source @param {number} factor
      */
-    const rescaled = ({ norms, repeatable, unknown, joint, randomNorm }, k, rows, factor) => {
+    const rescaled = ({ norms, repeatable, unknown, ofParts, randomNorm }, k, rows, factor) => {
         const sum = isRandom[k] ? repeatable : repeatable.map((row, i) => row + (factor - 1) * rows[i]);
         const square = isRandom[k] ? (factor * factor - 1) * norms[k] ** 2 : 0;
         if (report.study.criterion === "rss") return norm(sum) + Math.sqrt(Math.max(0, randomNorm ** 2 + square));
-        if (isJoint(k)) return norm(worstCase(sum, unknown)) + joint + (factor - 1) * norms[k];
+        if (hasParts(k)) return norm(worstCase(sum, unknown)) + ofParts + (factor - 1) * norms[k];
         const at = isRandom[k] ? unknown.findIndex((vector) => vector.every((row, i) => row === rows[i])) : -1;
         const others = at < 0 ? unknown : unknown.map((vector, i) => (i === at ? vector.map((row) => factor * row) : vector));
-        return norm(worstCase(sum, others)) + joint;
+        return norm(worstCase(sum, others)) + ofParts;
     };
 
     /** @param {State} state @returns {Errors} */

@@ -26,7 +26,7 @@ function printed({ error_unit: units, study, sources }, { position, orientation 
     const times = (value) => `× ${roundedDown(value, decimals(value, 2))}`;
     const share = (value, tolerance) => (tolerance === null ? "" : percent(value, tolerance));
     const lines = [row("as built", `${length(position.radius)} ${symbol}`, share(position.radius, study.tolerance))];
-    const root = Math.hypot(...position.random);
+    const root = position.randomNorm;
     if (root > 0 && position.repeatableRadius > 0) {
         lines.push(row(study.criterion === "rss" ? "random only" : "random, rss", `${length(root)} ${symbol}`, share(root, study.tolerance)));
     }

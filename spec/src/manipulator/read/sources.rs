@@ -138,7 +138,7 @@ fn read_source(
             };
             if errors != usize::from(parts) {
                 let name = distribution.name();
-                let message = format!("a {name} is the joint error of {parts} components of one frame");
+                let message = format!("a {name} is one error with {parts} components at a frame");
                 let help = format!(
                     "give the source {parts} of `e_x` … `e_p` of a `frame`, the semi-axes of the {name}, and nothing else"
                 );

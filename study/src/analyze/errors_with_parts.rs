@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Largest errors of each error with several parts over some configurations, of position and
 /// orientation.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct LargestJointErrors(Vec<[Largest; 2]>);
+pub(super) struct LargestWithParts(Vec<[Largest; 2]>);
 
 /// Largest absolute values along three rows, the largest norm, and its configuration.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
@@ -16,10 +16,10 @@ struct Largest {
     worst: Option<usize>,
 }
 
-impl LargestJointErrors {
+impl LargestWithParts {
     /// Creates the errors of no configurations.
     pub(super) fn new(parts: &ErrorParts) -> Self {
-        Self(parts.joint().map(|_| Default::default()).collect())
+        Self(parts.with_parts().map(|_| Default::default()).collect())
     }
 
     /// Returns whether there are none.
@@ -29,7 +29,7 @@ impl LargestJointErrors {
 
     /// Adds a configuration.
     pub(super) fn add(&mut self, row: &Row, parts: &ErrorParts) {
-        for (largest, own) in self.0.iter_mut().zip(parts.joint()) {
+        for (largest, own) in self.0.iter_mut().zip(parts.with_parts()) {
             for (measurand, largest) in Measurand::ALL.into_iter().zip(largest) {
                 if measurand == Measurand::Position || row.oriented {
                     let (rows, norm) = parts.largest(own[0], row.sources, measurand);
@@ -49,7 +49,7 @@ impl LargestJointErrors {
     /// come from a file.
     pub(super) fn fits(&self, parts: &ErrorParts, configurations: usize) -> bool {
         let in_workspace = |largest: &Largest| largest.worst.is_none_or(|index| index < configurations);
-        self.0.len() == parts.joint().count() && self.0.as_flattened().iter().all(in_workspace)
+        self.0.len() == parts.with_parts().count() && self.0.as_flattened().iter().all(in_workspace)
     }
 
     /// Replaces the parts in a budget by the whole errors.
@@ -57,10 +57,10 @@ impl LargestJointErrors {
         for (measurand, sources) in
             Measurand::ALL.into_iter().zip([&mut budget.sources, &mut budget.orientation.sources])
         {
-            for (largest, own) in self.0.iter().zip(parts.joint()) {
+            for (largest, own) in self.0.iter().zip(parts.with_parts()) {
                 sources[own[0]] = largest[measurand as usize].whole(own, sources);
             }
-            sources.retain(|errors| !parts.of(errors.source).is_empty());
+            sources.retain(|errors| !parts.parts_of(errors.source).is_empty());
         }
     }
 }
@@ -91,7 +91,7 @@ impl Largest {
             },
             rms: root(&|part| part.rms).min(self.norm),
             worst: self.worst,
-            ..sources[parts[0]].clone()
+            ..sources[parts[0]]
         }
     }
 }
