@@ -46,16 +46,24 @@ export function worstCase(center, all) {
 }
 
 /**
- * Returns the largest norm of an error with several parts, `B x` with `‖x‖ ≤ 1`: the root of the largest eigenvalue of `B Bᵀ`.
+ * Returns the largest norm of an error with several parts, `B x` with `‖x‖ ≤ 1`: the root of the largest eigenvalue of `B Bᵀ`,
+ * by Jacobi's rotations, each of which makes an entry beside the diagonal zero.
  * @param {Vector[]} parts @returns {number}
  */
 export function longest(parts) {
-    const [xx, yy, zz, xy, xz, yz] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]].map(([i, j]) =>
-        parts.reduce((sum, part) => sum + part[i] * part[j], 0));
-    const mean = (xx + yy + zz) / 3;
-    const [a, b, c] = [xx - mean, yy - mean, zz - mean];
-    const spread = Math.sqrt((a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) / 6);
-    const determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
-    const angle = Math.acos(Math.min(1, Math.max(-1, determinant / (2 * spread ** 3) || 0))) / 3;
-    return Math.sqrt(Math.max(0, mean + 2 * spread * Math.cos(angle)));
+    const a = [0, 1, 2].map((i) => [0, 1, 2].map((j) => parts.reduce((sum, part) => sum + part[i] * part[j], 0)));
+    for (let turn = 0; turn < 24; turn++) {
+        const [i, j] = [[0, 1], [0, 2], [1, 2]][turn % 3];
+        if (a[i][j] === 0) continue;
+        const half = (a[j][j] - a[i][i]) / (2 * a[i][j]);
+        const tangent = (half < 0 ? -1 : 1) / (Math.abs(half) + Math.hypot(half, 1));
+        const [cosine, k] = [1 / Math.hypot(tangent, 1), 3 - i - j];
+        const [first, second] = [a[k][i], a[k][j]];
+        a[i][i] -= tangent * a[i][j];
+        a[j][j] += tangent * a[i][j];
+        a[k][i] = a[i][k] = cosine * (first - tangent * second);
+        a[k][j] = a[j][k] = cosine * (tangent * first + second);
+        a[i][j] = a[j][i] = 0;
+    }
+    return Math.sqrt(Math.max(0, a[0][0], a[1][1], a[2][2]));
 }
