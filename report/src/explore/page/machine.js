@@ -2,7 +2,7 @@
 
 import { steady } from "./number.js";
 import { factorOf } from "./state.js";
-import { longest as longestOf, worstCase } from "./worst_case.js";
+import { largestNorm, worstCase } from "./worst_case.js";
 
 /** @import { Report, State } from "./state.js" */
 
@@ -92,7 +92,7 @@ export function createMachine(generated, report) {
         let square = 0;
         const lengths = displacements.map((displacement, k) => {
             const rows = displacement.slice(first, first + 3);
-            const length = hasParts(k) ? longestOf(parts[k].map((part) => part.slice(first, first + 3))) : norm(rows);
+            const length = hasParts(k) ? largestNorm(parts[k].map((part) => part.slice(first, first + 3))) : norm(rows);
             if (hasParts(k)) ofParts += length;
             else if (isRandom[k]) unknown.push(rows);
             if (isRandom[k]) square += length * length;

@@ -50,7 +50,7 @@ export function worstCase(center, all) {
  * by Jacobi's rotations, each of which makes an entry beside the diagonal zero.
  * @param {Vector[]} parts @returns {number}
  */
-export function longest(parts) {
+export function largestNorm(parts) {
     const a = [0, 1, 2].map((i) => [0, 1, 2].map((j) => parts.reduce((sum, part) => sum + part[i] * part[j], 0)));
     for (let turn = 0; turn < 24; turn++) {
         const [i, j] = [[0, 1], [0, 2], [1, 2]][turn % 3];
