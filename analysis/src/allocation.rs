@@ -12,11 +12,11 @@
 //!
 //! since a norm is the largest product with a unit vector, and each product is largest at an end of
 //! its range; an error with several parts adds its largest norm in any direction. Both are convex,
-//! homogeneous and nondecreasing in x ≥ 0: if `W(x) ≤ 1` then `W(x′) ≤ 1` for all `x′ ≤ x`. In (1) the largest `a(q,n)·x` has n along the longest vector of
-//! the zonotope with the centre `Σ x_k v_k/2` over repeatable sources, the half-edges `x_k v_k/2`
-//! of these and `x_k v_k` of the others. By Euler `R(x) = ∇R(x)·x`, and `∇R(x)·x′ ≤ R(x′)` as R is
-//! convex. So each x that exceeds the tolerance gives a cut `a·x′ ≤ 1`, `a ≥ 0`, which holds for
-//! all admissible x′ and excludes x.
+//! homogeneous and nondecreasing in x ≥ 0: if `W(x) ≤ 1` then `W(x′) ≤ 1` for all `x′ ≤ x`. In (1)
+//! the largest `a(q,n)·x` has n along the longest vector of the zonotope with the centre `Σ x_k
+//! v_k/2` over repeatable sources, the half-edges `x_k v_k/2` of these and `x_k v_k` of the others.
+//! By Euler `R(x) = ∇R(x)·x`, and `∇R(x)·x′ ≤ R(x′)` as R is convex. So each x that exceeds the
+//! tolerance gives a cut `a·x′ ≤ 1`, `a ≥ 0`, which holds for all admissible x′ and excludes x.
 //!
 //! ```text
 //! (3)  minimize Σ c_k x_k^(−p_k)   subject to   A x ≤ 1,  l_k ≤ x_k ≤ u_k
