@@ -92,8 +92,9 @@ impl ErrorDistribution {
             match (residual, source.class) {
                 // Only where the source has an error.
                 (Some(Residual::Bound(bound)), _) if is_position => {
+                    let acts = error != [0.0; 3] || all.random.iter().any(|one| one.source == k);
                     all.random.retain(|one| one.source != k);
-                    all.undirected.extend((error != [0.0; 3]).then_some((Some(k), bound)));
+                    all.undirected.extend(acts.then_some((Some(k), bound)));
                 }
                 (Some(Residual::Share(share)), Class::Repeatable) if share < 1.0 => {
                     all.signed.push((k, error.map(|row| share * row)));

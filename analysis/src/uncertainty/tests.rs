@@ -505,3 +505,19 @@ fn a_ball_is_one_error() {
         );
     }
 }
+
+/// What remains of a ball after compensation, as a length, is there if any of its parts has an
+/// effect, and only then.
+#[test]
+fn the_residual_of_a_ball_asks_all_parts() {
+    let ball = |part| Class::Tolerance(Distribution::Ball { part, parts: 3 });
+    let description = machine([ball(0), ball(1), ball(2)].map(source).to_vec());
+    let residuals = [Some(Residual::Bound(0.01)), None, None];
+    let correction = Correction { residuals: &residuals, together: None };
+    for parts in 0..8_usize {
+        let mut errors = errors(&description, 3, 4);
+        (0..3).filter(|k| parts >> k & 1 == 0).for_each(|k| errors.sources[k] = [0.0; 6]);
+        let left = errors.distribution(Measurand::Position, Some(correction)).worst_case().norm;
+        assert_eq!(left, if parts == 0 { 0.0 } else { 0.01 }, "{parts:03b}");
+    }
+}

@@ -377,3 +377,38 @@ fn a_simulated_machine_has_one_value_of_a_tolerance() {
     assert!(offsets.iter().all(|offset| offset.abs() <= 0.1 + 1e-6));
     assert!(offsets.iter().any(|offset| (offset - offsets[0]).abs() > 0.02), "{offsets:?}");
 }
+
+/// Draws of a clearance are within its ball, of which they fill all: a mean square of 3/5 r². As a
+/// tolerance it has one value in all rows.
+#[test]
+fn simulated_clearances_fill_their_ball() {
+    let simulated = |class: &str, random: bool| {
+        let source = format!(
+            "\n[[source]]\nname = \"clearance\"\nclass = \"{class}\"\ndistribution = \"ball\"\nframe = \"elbow\"\n\
+             e_x = \"0.1 mm\"\ne_y = \"0.1 mm\"\ne_z = \"0.1 mm\"\n"
+        );
+        let text: String = ur5().text().unwrap().split("\n[[source]]").next().unwrap().to_owned();
+        let machine = machine("real.toml", &format!("{text}{source}"));
+        let one = one();
+        let map = Map::parse("map.toml", &format!("{}{}", one.layout, one.mounted), &machine.spec).unwrap();
+        let at = Places::Samples(1000);
+        let job = Simulate { machine, map, at, noise: Some(0.0), outliers: 0.0, random, seed: 5 };
+        let rows = job.run(&mut ()).unwrap().observations;
+        let point = |measured: &Measurement| match measured {
+            Measurement::Points(points) => points[0].unwrap(),
+            _ => panic!("these are points"),
+        };
+        rows.iter().map(|row| point(&row.measured)).collect::<Vec<_>>()
+    };
+    for class in ["random", "tolerance"] {
+        let (exact, drawn) = (simulated(class, false), simulated(class, true));
+        let square = |(a, b): (&[f64; 3], &[f64; 3])| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>();
+        let squares: Vec<f64> = exact.iter().zip(&drawn).map(square).collect();
+        assert!(squares.iter().all(|square| square.sqrt() <= 0.1 + 1e-9));
+        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+        match class {
+            "random" => assert!((mean / 0.006 - 1.0).abs() < 0.05, "{mean}"),
+            _ => assert!(squares.iter().all(|square| (square - mean).abs() < 1e-9 && *square > 0.0)),
+        }
+    }
+}

@@ -27,6 +27,7 @@ mod remedy;
 mod scalar;
 mod shared;
 mod sin_cos;
+mod source;
 #[cfg(feature = "lanes")]
 mod twist;
 #[cfg(target_arch = "x86_64")]
@@ -55,8 +56,7 @@ pub use chain::{
 };
 pub use component::Component;
 pub use description::{
-    Branch, Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter,
-    Source, SumLimit, Variable, VariableKind, whole,
+    Branch, Description, Frame, Input, LengthUnit, Orientation, Parameter, SumLimit, Variable, VariableKind,
 };
 pub use distinct::ErrorColumns;
 #[cfg(feature = "std")]
@@ -72,6 +72,7 @@ pub use quantity::Quantity;
 pub use remedy::Remedy;
 pub use scalar::{LookupTable, Scalar};
 pub use shared::{List, Text};
+pub use source::{Class, Distribution, Effect, Source, whole};
 #[cfg(feature = "lanes")]
 pub use twist::{roll_cosine, twist};
 

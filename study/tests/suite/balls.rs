@@ -146,3 +146,31 @@ fn a_disc_has_its_probability() {
     assert!((verdict.compliance.probability - exact).abs() < 4.0 * verdict.compliance.error, "{verdict:?}");
     assert!((report.combined.worst_case_radius - 0.2).abs() < 1e-12);
 }
+
+/// A clearance of the joint at the end of a leg acts as an error of the leg's length, at the tool
+/// and at every configuration: a ball of radius r as ± r.
+#[test]
+fn a_clearance_in_a_leg_is_an_error_of_its_length() {
+    let legs = crate::closed_machines::hexapod(&[[0.0; 7]; 6], "");
+    let keys = "criterion = \"worst-case\"";
+    let study_of = |text: &str| {
+        let machine = machine(&format!("{legs}{text}"));
+        let workspace = "[workspace.grid]\nx = [-20, 20]\nz = [620, 640]\na = [\"-3 deg\", \"2 deg\"]\n";
+        let study = study(&machine, keys, workspace);
+        Analyze::new(machine, study).run(&mut ()).unwrap()
+    };
+    for leg in [1, 4] {
+        let length = format!(
+            "[[source]]\nname = \"length\"\nclass = \"tolerance\"\njoint = \"q{leg}\"\nerror = 0.05\n"
+        );
+        let length = study_of(&length);
+        for end in ["base", "joint"] {
+            let ball = study_of(&ball("clearance", "tolerance", &format!("{end} {leg}"), 0.05));
+            let figures =
+                |report: &Report| [report.combined.worst_case_radius, report.orientation.worst_case_radius];
+            for (found, expected) in figures(&ball).into_iter().zip(figures(&length)) {
+                assert!((found / expected - 1.0).abs() < 1e-9, "{end} {leg}: {found}, not {expected}");
+            }
+        }
+    }
+}

@@ -48,6 +48,12 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut 
             None => section.check_keys(&KNOWN, document),
         }
     }
+    for part in parts_of_balls(&mut sources.clone()) {
+        if let Some((_, span)) = spans.iter().find(|(known, _)| *known == part.name) {
+            let message = format!("\"{}\" is the name of a part of another source", part.name);
+            document.mistake(Diagnostic::new(span.clone(), message).help("rename this source"));
+        }
+    }
     sources
 }
 
