@@ -53,9 +53,8 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         let map = arguments.map.as_ref().map(|_| &job.map);
         let files = [("commands", &arguments.data)];
         let provenance = Provenance::new(spec, map, files)?;
-        let live =
-            Explore::measured(job.machine.clone(), report.residuals()).panel(&mut Console::default())?;
-        file.fill(&document().page(&provenance, live.as_ref()))
+        let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
+        file.fill(&document().page(&provenance, Some(&live)))
     });
     let printed = outputs.finish(commands.into_iter().chain(page.transpose()?))?;
     let next = match out {

@@ -62,9 +62,8 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
         let files = [("measurements", &arguments.measured.data)].into_iter().chain(test);
         let spec = &job.machine.spec;
         let provenance = Provenance::new(spec, Some(&job.map), files)?;
-        let live =
-            Explore::measured(job.machine.clone(), report.residuals()).panel(&mut Console::default())?;
-        file.fill(&document().page(&provenance, live.as_ref()))
+        let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
+        file.fill(&document().page(&provenance, Some(&live)))
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);

@@ -36,8 +36,8 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let files = [("measurements", &arguments.measured.data)];
     let provenance = Provenance::new(&spec, Some(&job.map), files)?;
-    let live = Explore::measured(job.machine.clone(), report.residuals()).panel(&mut Console::default())?;
-    let text = views::measurement(&spec, &map, &report).page(&provenance, live.as_ref());
+    let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
+    let text = views::measurement(&spec, &map, &report).page(&provenance, Some(&live));
     outputs.finish([errors.fill(&report.table().csv())?, page.fill(&text)?])?;
     outcome(arguments, &spec, &map, &report)
 }

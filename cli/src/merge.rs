@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
     let live = match &begun {
         Some(_) => {
             let analysis = Cow::Borrowed(merge.job());
-            Explore { analysis, study: merge.study(), residuals: None }.panel(&mut console)?
+            Some(Explore { analysis, study: merge.study(), residuals: None }.run(&mut console)?)
         }
         None => None,
     };

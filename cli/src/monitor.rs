@@ -33,8 +33,8 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
         let (spec, files) = (&job.machine.spec, arguments.data.iter().map(|file| ("check", file)));
         let provenance = Provenance::new(spec, Some(&job.map), files)?;
         let residuals = report.residuals.clone();
-        let live = Explore::measured(job.machine.clone(), residuals).panel(&mut Console::default())?;
-        file.fill(&document().page(&provenance, live.as_ref()))
+        let live = Explore::measured(job.machine.clone(), residuals).run(&mut Console::default())?;
+        file.fill(&document().page(&provenance, Some(&live)))
     });
     let printed = outputs.finish(page.transpose()?)?;
     let passed = !arguments.check || report.alarm.is_none();

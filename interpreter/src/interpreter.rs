@@ -113,8 +113,8 @@ impl Interpreter {
 
     /// Returns the derivatives of the results of a function by the structural parameters: for each
     /// parameter one after the other, all results in their order, without the margin. Returns
-    /// `None` for frames that branch. The first call differentiates the function, which takes some
-    /// milliseconds.
+    /// `None` for poses with errors of machines with loops. The first call differentiates the
+    /// function, which takes some milliseconds.
     ///
     /// # Errors
     ///

@@ -18,8 +18,8 @@ impl Machine {
     ///
     /// `of`: "predict" for ΔX by the repeatable sources, or "error_jacobian"; units are those of
     /// that function per coherent unit of the parameter. The derivatives are exact; the first call
-    /// takes some milliseconds to find them. `inputs`: as for `generalized_errors`. Machines whose
-    /// frames branch raise ValueError.
+    /// takes some milliseconds to find them. `inputs`: as for `generalized_errors`. Closed loops stay
+    /// closed.
     ///
     /// >>> import abbe
     /// >>> pps = abbe.load("pps")
@@ -66,11 +66,7 @@ impl Machine {
                 let refused = mistake::not_evaluated(&self.machine.origin, &at, &error, description);
                 PyValueError::new_err(refused.list.into_iter().map(|one| one.message).collect::<String>())
             })?;
-            let found = found.ok_or_else(|| {
-                PyValueError::new_err(
-                    "the frames of this machine branch: there are no derivatives by its parameters",
-                )
-            })?;
+            let found = found.ok_or_else(|| PyValueError::new_err("this function has no derivatives"))?;
             let places = written[length * index..].iter_mut();
             let rows = found
                 .chunks_exact(results.max(1))

@@ -45,9 +45,8 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
             let mut show = |row: &Row| files.configuration(row);
             let report = dated(job.run_with_rows(Some(&mut show), &mut console)?);
             let study = arguments.study.as_ref().map(|study| study.to_string_lossy().into_owned());
-            let live =
-                Explore { analysis: Cow::Borrowed(&job), study, residuals: None }.panel(&mut console)?;
-            write(folder, files, outputs, &report, live.as_ref())?;
+            let live = Explore { analysis: Cow::Borrowed(&job), study, residuals: None }.run(&mut console)?;
+            write(folder, files, outputs, &report, Some(&live))?;
             report
         }
     };

@@ -257,7 +257,7 @@ fn arguments_and_results(signature: &Signature, orientation: Orientation) -> Vec
 }
 
 /// Returns the stages with a program that fills all results.
-fn at_once(model: &Model, arrays: &mut Vec<Array>, program: Program) -> Vec<Stage> {
+pub(super) fn at_once(model: &Model, arrays: &mut Vec<Array>, program: Program) -> Vec<Stage> {
     if let Some(tree) = &model.loops {
         return LoopRoutineBuilder::new(model, tree, arrays).at_once(program, None);
     }

@@ -49,19 +49,9 @@ impl Explore<'_> {
         Explore { analysis: Cow::Owned(Analyze::new(machine, study)), study: None, residuals }
     }
 
-    /// Returns the data for a page of another job; `None` where no live page can be written.
-    pub fn panel(&self, notes: &mut dyn Notes) -> Result<Option<Report>, Diagnostics> {
-        let is_chain = self.analysis.machine().spec.is_serial();
-        is_chain.then(|| self.run(notes)).transpose()
-    }
-
     /// Generates the code and collects the data.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let machine = self.analysis.machine();
-        machine.require_chain(
-            "no live page can be written",
-            "use `abbe analyze` with `--out DIR`: its page has the figures of the whole workspace",
-        )?;
         let tunable = tunable(&machine.spec);
         let functions = Language::JavaScript.functions(&tunable);
         let functions: Vec<&str> = FUNCTIONS.into_iter().filter(|name| functions.contains(name)).collect();

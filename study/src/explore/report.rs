@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use abbe::{Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
+use abbe_spec::{Closure, Loop, Spec};
 use serde::Serialize;
 
 use crate::Residuals;
@@ -45,6 +45,12 @@ pub struct Report {
     pub study: StudyFacts,
     /// Frames, from base to tip.
     pub frames: Vec<FrameName>,
+    /// Lines of the picture, each between two of `F_0`, the frames, and the tool, as indices from
+    /// 0: for each frame and the tool one from what it hangs on, then the legs.
+    pub links: Vec<[usize; 2]>,
+    /// `true` if loops determine passive variables: then the code returns NaN where they do not
+    /// close.
+    pub has_loops: bool,
     /// `true` if a tool follows the last frame.
     pub tool: bool,
     /// Index of the axis of `F_0` that points up in pictures of the manipulator.
@@ -228,6 +234,8 @@ impl Report {
                 criterion: study.criterion,
             },
             frames: spec.frames.iter().map(|frame| FrameName { name: frame.name.clone() }).collect(),
+            links: links(spec),
+            has_loops: !spec.loops.is_empty(),
             tool: !spec.tool.is_empty(),
             up: up(study),
             variables: variables(spec),
@@ -255,6 +263,15 @@ impl Report {
 pub(super) fn effects(manipulator: &Interpreter) -> Vec<[usize; 3]> {
     let effects = manipulator.description().effects.iter();
     effects.map(|effect| [effect.source, effect.frame, effect.component.index()]).collect()
+}
+
+/// Returns the lines of the picture.
+fn links(spec: &Spec) -> Vec<[usize; 2]> {
+    let after = |frame: Option<usize>| frame.map_or(0, |frame| frame + 1);
+    let carriers = spec.frames.iter().map(|frame| frame.parent).chain([Some(spec.tool_frame)]);
+    let is_leg = |closed: &&Loop| matches!(closed.closure, Closure::Distance(_));
+    let legs = spec.loops.iter().filter(is_leg).map(|leg| leg.frames.map(after));
+    carriers.enumerate().map(|(i, carrier)| [after(carrier), i + 1]).chain(legs).collect()
 }
 
 /// Returns the axis that points up in the study's picture of the manipulator, or in others.

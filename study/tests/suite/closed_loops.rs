@@ -10,7 +10,6 @@ use abbe_spec::document::Document;
 use abbe_study::analyze::figures::FigureData;
 use abbe_study::analyze::{Analyze, Report};
 use abbe_study::bound::Bound;
-use abbe_study::explore::Explore;
 use abbe_study::export::{Export, Format};
 use abbe_study::{Machine, Study};
 
@@ -49,8 +48,6 @@ fn jobs_on_chains_are_refused() {
             assert!(text.contains("help: use `abbe "), "{text}");
         };
         refused(Bound::new(machine.clone(), study).run(&mut ()).unwrap_err());
-        refused(Explore::measured(machine.clone(), None).run(&mut ()).unwrap_err());
-        assert!(Explore::measured(machine.clone(), None).panel(&mut ()).unwrap().is_none());
         let export = Export { machine, format: Format::Dh, samples: 10, seed: 1 };
         refused(export.run(&mut ()).unwrap_err());
     }

@@ -27,3 +27,4 @@ pub use equations::LoopEquations;
 pub(super) use lengths::add_lengths;
 pub(crate) use loops::{ClosedLoops, RealNodes};
 pub(super) use parts::Parts;
+pub(crate) use parts::passive_by_symbol;

@@ -121,6 +121,13 @@ impl<'s> Parts<'s> {
         self.closed(graph, twist, &rates)
     }
 
+    /// Returns the rates of the passive variables per unit of a symbol: `−φ_p⁻¹ φ_x`.
+    fn passive_by_symbol(&self, graph: &mut Graph, symbol: Symbol) -> Vec<Node> {
+        let rates = self.rates_by_symbol(graph, symbol);
+        let solved = self.factored.solve(graph, &rates);
+        solved.into_iter().map(|rate| graph.neg(rate)).collect()
+    }
+
     /// Returns velocity and rotation of the tool per unit of an error.
     pub(super) fn by_error(&self, graph: &mut Graph, frame: usize, component: Component) -> [Vector; 2] {
         if self.free[frame] {
@@ -144,6 +151,14 @@ impl<'s> Parts<'s> {
         let twist = self.tool(graph, &motions);
         let rates = self.rates(graph, |graph, view| view.by_errors(graph, &errors));
         self.closed(graph, twist, &rates)
+    }
+}
+
+/// Returns the rates of the passive variables of a spec per unit of a symbol; none without loops.
+pub(crate) fn passive_by_symbol(graph: &mut Graph, spec: &Spec, symbol: Symbol) -> Vec<Node> {
+    match spec.passive.is_empty() {
+        true => Vec::new(),
+        false => Parts::new(graph, spec).passive_by_symbol(graph, symbol),
     }
 }
 

@@ -11,6 +11,9 @@ const [LEFT, RIGHT, TOP, BOTTOM] = [48, 136, 20, 36];
 /** Number of points of a curve, of sources with a curve; distance in pixels at which a dot is picked. */
 const [POINTS, CURVES, NEAR] = [61, 4, 9];
 
+/** Returns the largest of the numbers that are finite. @param {number[]} values */
+const greatest = (values) => values.reduce((most, value) => (value > most ? value : most), -Infinity);
+
 /** Returns about `count` round values from `least` to `most`. @param {number} least @param {number} most @param {number} count */
 function ticks(least, most, count) {
     const step = roundStep((most - least) / count);
@@ -42,16 +45,16 @@ export function createSweep(panel) {
         const { values, total, repeatable, random, sources } = sweep(machine, report, state, joint, POINTS, measurand);
         [from, to] = [values[0], values[POINTS - 1]];
         const limit = tolerances[measurand];
-        const most = Math.max(...total.filter(Number.isFinite), ...radii().filter(Number.isFinite), 0);
+        const most = greatest([...total, ...radii(), 0]);
         top = 1.05 * (Math.max(most, limit !== null && limit < 4 * most ? limit : 0) || 1);
-        const peaks = sources.map((curve, k) => ({ name: report.sources[k].name, curve, peak: Math.max(...curve) }));
-        const isMixed = Math.max(...repeatable) > 0 && Math.max(...random) > 0;
+        const peaks = sources.map((curve, k) => ({ name: report.sources[k].name, curve, peak: greatest(curve) }));
+        const isMixed = greatest(repeatable) > 0 && greatest(random) > 0;
         const all = [{ name: "total", curve: total }, { name: "repeatable", curve: isMixed ? repeatable : [] },
             { name: "random", curve: isMixed ? random : [] },
             ...peaks.filter(({ peak }) => peak > 0).sort((a, b) => b.peak - a.peak).slice(0, CURVES)];
         lines.forEach((line, i) => line.setAttribute("d", path((all[i]?.curve ?? []).map((error, k) =>
-            [across(values[k]), above(Number.isFinite(error) ? error : 0)]))));
-        const ends = all.map(({ name, curve }, i) => ({ name, kind: kinds[i], y: above(curve[POINTS - 1]) }));
+            [across(values[k]), above(error)]))));
+        const ends = all.map(({ name, curve }, i) => ({ name, kind: kinds[i], y: above(curve.findLast(Number.isFinite) ?? NaN) }));
         writeNames([...ends, { name: "tolerance", kind: "", y: above(limit ?? NaN) }].filter(({ y }) => y > 0));
         tolerance.setAttribute("d", limit === null ? "" : path([[LEFT, above(limit)], [width - RIGHT, above(limit)]]));
         here.setAttribute("d", path([TOP, height - BOTTOM].map((y) => [across(state.q[joint]), y])));
@@ -59,9 +62,9 @@ export function createSweep(panel) {
         dots.setAttribute("d", radii().map((error, i) => `${path([[across(report.configurations.q[i][joint]), above(error || 0)]])}h0`).join(""));
         writeNumbers(unit, along);
         chosen.value = String(joint);
-        const worst = total.indexOf(Math.max(...total));
+        const worst = total.indexOf(greatest(total));
         const largest = unit.factor * (total[worst] ?? 0);
-        const isConstant = Math.min(...total) >= (total[worst] ?? 0) * (1 - 1e-9);
+        const isConstant = total.every(Number.isFinite) && Math.min(...total) >= (total[worst] ?? 0) * (1 - 1e-9);
         setText(summary, `${isConstant ? "Constant" : "Largest"} along ${report.variables[joint].name}: ${fixed(largest, decimals(largest, 4))} `
             + `${unit.symbol}${isConstant ? "" : ` at ${shown(values[worst] ?? 0, along, report.length)}`}. Dots: ${radii().length} configurations of the ${report.residuals ? "rows" : "study"}; click one to load it.`);
     }

@@ -24,8 +24,12 @@ export const spans = (...names) => names.map((name) => html("span", { class: nam
 /** Creates paths, one for each class. @param {string[]} names */
 export const paths = (...names) => names.map((name) => svg("path", { class: name }));
 
-/** Moves an element of a drawing. @param {SVGElement} element @param {number[]} to */
-export const moveTo = (element, [x, y]) => element.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+/** Moves an element of a drawing, or hides it where there is no such place. @param {SVGElement} element @param {number[]} to */
+export function moveTo(element, [x, y]) {
+    const isThere = Number.isFinite(x + y);
+    element.style.display = isThere ? "" : "none";
+    if (isThere) element.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+}
 
 /** Sets the text of an element, if it differs. @param {Element} element @param {string} text */
 export function setText(element, text) {
@@ -47,8 +51,9 @@ export function onResize(drawing, resized) {
     }).observe(drawing);
 }
 
-/** Returns the SVG path through points. @param {number[][]} points */
-export const path = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+/** Returns the SVG path through points, with gaps where a number is not finite. @param {number[][]} points */
+export const path = (points) => points.map(([x, y], i) => (Number.isFinite(x + y)
+    ? `${i && Number.isFinite(points[i - 1][0] + points[i - 1][1]) ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}` : "")).join("");
 
 /** Returns the largest of 1, 2 and 5 times a power of ten that is at most `value`; 1 for zero. @param {number} value */
 export function roundStep(value) {

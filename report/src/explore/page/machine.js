@@ -169,7 +169,8 @@ export function createMachine(generated, report) {
 
         /**
          * Returns the poses of F_0, F_1 … F_n and the tool, of the ideal machine, and of the real one with the errors of its
-         * repeatable sources magnified. Errors elsewhere on a link are shown by their first-order effect at its frame.
+         * repeatable sources magnified. Errors elsewhere on a link are shown by their first-order effect at its frame. The
+         * real one is empty for closed loops, which magnified errors would open.
          * @param {State} state @param {number} magnification @returns {{ideal: number[][], real: number[][]}}
          */
         frames: (state, magnification) => {
@@ -179,15 +180,15 @@ export function createMachine(generated, report) {
                 if (!isRandom[source]) errors[frame][component] += magnification * values[k];
             });
             const transforms = Array.from(generated.transforms(state.q, state.s));
-            const base = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
-            const [ideal, real] = [[base], [base]];
-            for (let i = 0; i <= errors.length; i++) {
-                const local = transforms.slice(12 * i, 12 * i + 12);
-                ideal.push(product(ideal[i], local));
-                const next = product(real[i], local);
-                real.push(i < errors.length ? product(next, motion(errors[i])) : next);
-            }
-            return { ideal, real };
+            const poses = [false, true].map((isReal) => {
+                const all = [[1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]];
+                for (let i = 0; i <= errors.length; i++) {
+                    const next = product(all[report.links[i][0]], transforms.slice(12 * i, 12 * i + 12));
+                    all.push(isReal && i < errors.length ? product(next, motion(errors[i])) : next);
+                }
+                return all;
+            });
+            return { ideal: poses[0], real: report.has_loops ? [] : poses[1] };
         },
     };
 }

@@ -26,7 +26,7 @@ import { exact, parseValue } from "./number.js";
  * of the commands, `effects` source, frame and component of each effect, `configurations` those of the study.
  * @typedef {{spec: string, name: string, title: string, description: string, command: string[], length: string,
  *     jacobian_command: string[], error_unit: Record<string, [string, number]>, orientation: string, rows: string[],
- *     columns: string[], frames: {name: string}[], tool: boolean, up: number, variables: Variable[], inputs: Setting[],
+ *     columns: string[], frames: {name: string}[], links: [number, number][], has_loops: boolean, tool: boolean, up: number, variables: Variable[], inputs: Setting[],
  *     study: {title: string, tolerance: number | null, orientation_tolerance: number | null, judged: string, criterion: string},
  *     parameters: Setting[], sources: Source[], effects: [number, number, number][],
  *     configurations: {q: number[][], u: number[][], s: number[][]}, residuals?: Residuals, code: string}} Report

@@ -69,12 +69,13 @@ export function createVerdict(panel) {
         const { radius, repeatableRadius, randomRadius, shares } = figures[measurand];
         const limit = tolerances[measurand];
         const isMet = limit !== null && radius <= limit;
+        const isOpen = report.has_loops && Number.isNaN(figures.position.radius);
         // A study of the compensated machine judges what this page does not compute.
         const isJudged = limit !== null && report.study.judged === "as-built";
-        element.classList.toggle("missed", isJudged && !isMet);
-        setText(status, !isJudged ? "As built, here" : isMet ? "✓ Within tolerance here" : "✗ Above tolerance here");
-        setText(total, errorText(panel, radius));
-        setText(share, limit === null ? "" : `${percent(radius, limit)} of`);
+        element.classList.toggle("missed", isOpen || (isJudged && !isMet));
+        setText(status, isOpen ? "✗ The loops do not close here" : !isJudged ? "As built, here" : isMet ? "✓ Within tolerance here" : "✗ Above tolerance here");
+        setText(total, isOpen ? "" : errorText(panel, radius));
+        setText(share, limit === null || isOpen ? "" : `${percent(radius, limit)} of`);
         if (document.activeElement !== field) field.value = limit === null ? "" : `${short(unit.factor * limit)} ${unit.symbol}`;
         const own = measurand === "position" ? report.study.tolerance : report.study.orientation_tolerance;
         const ownText = own === null ? "none" : `${short(unit.factor * own)} ${unit.symbol}`;
@@ -86,7 +87,7 @@ export function createVerdict(panel) {
         const most = Math.max(...shares);
         setText(largest, radius > 0 ? `largest source: ${report.sources[shares.indexOf(most)].name} (${percent(most, 1)})` : "");
         const by = report.study.criterion === "rss" ? "root sum of squares" : "worst case";
-        setText(parts, `${by}: repeatable ${errorText(panel, repeatableRadius, radius)} + others ${errorText(panel, randomRadius, radius)}`);
+        setText(parts, isOpen ? "" : `${by}: repeatable ${errorText(panel, repeatableRadius, radius)} + others ${errorText(panel, randomRadius, radius)}`);
         const old = reference?.[measurand].radius ?? 0;
         const change = old > 0 ? ` (${radius < old ? "−" : "+"}${digits((100 * Math.abs(radius - old)) / old, 2)} %)` : "";
         setText(before, reference ? `before your changes ${errorText(panel, old, radius)}${change}` : "");

@@ -24,7 +24,7 @@ export function createView(panel, measured) {
     const { up, frames, variables } = report;
     const [ground, all] = [[(up + 1) % 3, (up + 2) % 3], report.configurations.q];
     const chosen = [panel.state.q, ...all.filter((_, i) => i % Math.ceil(all.length / SAMPLES) === 0)];
-    const samples = chosen.flatMap((q) => machine.frames({ ...panel.state, q }, 0).ideal.map(originOf));
+    const samples = chosen.flatMap((q) => machine.frames({ ...panel.state, q }, 0).ideal.map(originOf)).filter((point) => point.every(Number.isFinite));
     const ends = [0, 1, 2].map((i) => [Math.min(...samples.map((point) => point[i])), Math.max(...samples.map((point) => point[i]))]);
     const size = Math.max(...ends.map(([least, most]) => most - least)) || 1;
     const grid = roundStep(size / 6);
@@ -99,9 +99,10 @@ export function createView(panel, measured) {
         const moved = Array.from({ length: PATH_POINTS + 1 }, (_, i) =>
             Array.from(generated.pose(replaced(state.q, joint, least + ((most - least) * i) / PATH_POINTS), state.s)));
         floor.setAttribute("d", floorPath(project));
-        links.setAttribute("d", path(places));
+        const lines = (/** @type {number[][]} */ all) => path(report.links.flatMap(([from, to]) => [all[from], all[to], [NaN, NaN]]));
+        links.setAttribute("d", lines(places));
         reach.setAttribute("d", path(moved.map((pose) => project(originOf(pose)))));
-        ghost.setAttribute("d", path(poses.real.map((pose) => project(originOf(pose)))));
+        ghost.setAttribute("d", poses.real.length > 0 ? lines(poses.real.map((pose) => project(originOf(pose)))) : "");
         vector.setAttribute("d", arrow(tool, error));
         axes.forEach((line, k) => {
             const tips = poses.ideal.map((frame) => project(originOf(frame).map((value, r) => value + AXIS * size * frame[3 * k + r])));
@@ -120,7 +121,7 @@ export function createView(panel, measured) {
     function magnify() {
         const length = panel.figures.position.radius || panel.tolerances.position || Infinity;
         magnification = Math.max(1, roundStep((VECTOR * size) / length));
-        setText(real.children[1], `real, errors × ${magnification}`);
+        setText(real.children[1], `${report.has_loops ? "error of the tool point" : "real, errors"} × ${magnification}`);
     }
     /** @type {Map<number, number[]>} */
     const pointers = new Map();

@@ -47,6 +47,10 @@ function assertAgrees(report, machine, state) {
     const [analyze, jacobian] = commands(report, state);
     const evaluation = machine.evaluate(state);
     const { position, orientation } = evaluation;
+    if (report.has_loops && Number.isNaN(position.radius)) {
+        assert.throws(() => shell(`${jacobian} 2>&1`), /loop/, jacobian);
+        return 0;
+    }
     const size = Math.max(...position.norms, 1e-6);
     const about = (what) => `${what} of ${analyze}`;
 
@@ -95,11 +99,11 @@ function assertAgrees(report, machine, state) {
     return named.length;
 }
 
-for (const name of [...SHIPPED, ...otherSpecs()]) {
+for (const name of new Set([...SHIPPED, "palletizer", "hexapod", ...otherSpecs()])) {
     test(`${name}: numbers and printed figures are those of the commands`, () => {
         const { report, machine } = explored(name);
         const random = randomNumbers(3);
-        assertAgrees(report, machine, initialState(report));
+        assert.ok(assertAgrees(report, machine, initialState(report)) > 0 || report.sources.every(({ enabled }) => !enabled));
         for (let i = 0; i < STATES; i++) assertAgrees(report, machine, randomState(report, random));
     });
 
@@ -112,7 +116,12 @@ for (const name of [...SHIPPED, ...otherSpecs()]) {
             const { ideal, real } = machine.frames(state, 1);
             assert.equal(ideal.length, report.frames.length + 2);
             const reach = Math.max(...pose.map(Math.abs));
+            if (report.has_loops) {
+                assert.deepEqual(real, []);
+                if (Number.isNaN(reach)) continue;
+            }
             close(ideal.at(-1), pose, reach, "ideal");
+            if (report.has_loops) continue;
             // Errors elsewhere on a link differ by terms of second order.
             const error = Math.max(...position.norms, ...machine.errors(state).orientation.norms.map((angle) => angle * reach));
             close(real.at(-1), realPose, 1e11 * (1e-12 * reach + 30 * error ** 2 / reach), "real");
