@@ -63,11 +63,15 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
                         }
                     }
                 }
-                Part::Program { turns, body } => {
+                Part::Program { turns, body, while_positive } => {
                     for turn in turns {
                         self.moves(&turn.reads);
                         self.operations(body, &tape.tables);
                         self.moves(&turn.writes);
+                        let goes_on = |slot: Slot| self.rows[slot].iter().any(|value| value.is_positive());
+                        if !while_positive.is_none_or(goes_on) {
+                            break;
+                        }
                     }
                 }
             }

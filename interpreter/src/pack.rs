@@ -209,7 +209,11 @@ impl<'r> Packer<'r> {
         let locals: Vec<Slot> =
             block.reads.iter().flat_map(|place| self.row(arrays, place.array, place.row, 0)).collect();
         let (instructions, outputs) = self.program(&block.program, arrays, &locals);
-        self.parts.push(Part::Program { turns: vec![Turn::default()], body: instructions });
+        self.parts.push(Part::Program {
+            turns: vec![Turn::default()],
+            body: instructions,
+            while_positive: None,
+        });
         let mut outputs = &outputs[..];
         for place in &block.writes {
             let count = arrays.routine.arrays[place.array].len(&self.routines.description);
@@ -249,7 +253,8 @@ impl<'r> Packer<'r> {
         if repeated.backwards {
             turns.reverse();
         }
-        self.parts.push(Part::Program { turns, body });
+        let while_positive = repeated.while_positive.map(|array| arrays.places[array][0]);
+        self.parts.push(Part::Program { turns, body, while_positive });
     }
 
     /// Returns the operations of a program and the slots of its outputs.

@@ -15,7 +15,12 @@ pub(crate) enum Part {
     Sum { constants: Vec<(Slot, f64)>, factors: Vec<(Slot, Slot, f64)> },
     /// In every iteration, copies the reads, runs the operations, and copies the writes. A program
     /// outside of loops has one iteration.
-    Program { turns: Vec<Turn>, body: Vec<Operation> },
+    Program {
+        turns: Vec<Turn>,
+        body: Vec<Operation>,
+        /// Slot that ends the loop where no position of it is positive.
+        while_positive: Option<Slot>,
+    },
 }
 
 /// One iteration of a loop.

@@ -68,5 +68,5 @@ pub use sources::{DeviationNode, EffectNode, deviations, effects};
 pub(crate) use symbol_jacobian::swing;
 pub use tool_compliance::ToolCompliance;
 pub use tree::LoopEquations;
-pub(crate) use tree::{CLOSED, ClosedLoops, REFINEMENTS, RealNodes, passive_by_symbol};
+pub(crate) use tree::{ClosedLoops, Path, RealNodes, STEPS, passive_by_symbol};
 pub use walk::transform;

@@ -56,6 +56,11 @@ pub(super) trait Printer {
         ["&&", "||", "=="]
     }
 
+    /// Returns the negation of a condition.
+    fn negated(&self, condition: &str) -> String {
+        format!("!({condition})")
+    }
+
     /// Returns an element of an array.
     fn at(&self, array: &str, index: &str) -> String {
         format!("{array}[{index}]")

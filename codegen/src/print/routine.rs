@@ -81,8 +81,14 @@ impl<L: Printer> Walker<'_, L> {
                 let range = [0.into(), count.into()];
                 if count > 0 && !body.is_empty() {
                     let flat = self.flat;
+                    let going = repeated.while_positive.map(|array| self.language.at(&self.name(array), "0"));
                     self.language.repeat("i", &range, repeated.backwards, |language| {
                         statements(language, flat, body);
+                        if let Some(going) = going {
+                            let zero = language.number(0.0).text;
+                            let ended = language.negated(&format!("{going} > {zero}"));
+                            language.guard(&ended, L::LEAVE);
+                        }
                     });
                 }
             }

@@ -4,6 +4,10 @@ use abbe_core::Description;
 use abbe_core::function::Array;
 use abbe_spec::visible::alters_text;
 
+/// Meaning of the status of loops that do not close.
+pub(super) const NOT_CLOSED: &str =
+    "A loop does not close on the path from home, or a passive joint exceeds a limit.";
+
 /// Returns the sizes of an array of a function, the outermost first.
 pub(super) fn sizes(array: &Array, description: &Description) -> Vec<String> {
     array.shape.iter().map(|count| count.value(description).to_string()).collect()

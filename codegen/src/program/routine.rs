@@ -104,6 +104,9 @@ pub struct Repeated {
     pub count: Count,
     /// `true` to start with the last row.
     pub backwards: bool,
+    /// Index of a local array whose first number ends the loop after an iteration that leaves it
+    /// zero, negative or NaN.
+    pub while_positive: Option<usize>,
 }
 
 /// Rows of an array.

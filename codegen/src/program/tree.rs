@@ -2,11 +2,11 @@
 
 use abbe_core::Function;
 use abbe_core::function::Count;
-use abbe_spec::expr::{Function as Call, Symbol};
+use abbe_spec::expr::Symbol;
 
 use super::routine::{Array, ArrayRows, Block, Repeated, Role, Row, Stage};
 use super::{Program, Rounded};
-use crate::chain::{CLOSED, ClosedLoops, Model, REFINEMENTS, RealNodes};
+use crate::chain::{ClosedLoops, Model, Path, RealNodes, STEPS};
 use crate::graph::{Graph, Node};
 
 /// Builder of the stages of a function.
@@ -70,98 +70,57 @@ impl<'d> LoopRoutineBuilder<'d> {
         self.arrays.len() - 1
     }
 
-    fn block(&mut self, reads: &[usize], writes: &[usize], program: Program, times: Option<usize>) {
+    fn block(&mut self, reads: &[usize], writes: &[usize], program: Program, while_positive: Option<usize>) {
         let rows = |arrays: &[usize]| arrays.iter().copied().map(ArrayRows::all).collect();
-        let repeated = times.map(|times| Repeated { count: Count::Exactly(times), backwards: false });
+        let repeated = while_positive.map(|_| Repeated {
+            count: Count::Exactly(STEPS),
+            backwards: false,
+            while_positive,
+        });
         let (reads, writes) = (rows(reads), rows(writes));
         self.stages.push(Stage::Block(Block { reads, program, writes, repeated }));
     }
 
-    /// Computes the passive variables: Newton's method from home, while the joint variables move
-    /// from home to their values in equal steps.
-    ///
-    /// ```text
-    /// q_k = home + (k / n) (q − home)        p ← p − φ_p⁻¹ φ(q_k, p)
-    /// ```
+    /// Computes the passive variables on the path from home.
     fn passive(&mut self) {
-        let ClosedLoops { passive_home, home, continuation, step, .. } = self.loops;
+        let ClosedLoops { passive_home, .. } = self.loops;
         let passive = self.array("passive");
-        let mut graph = self.model.graph.clone();
+        let mut graph = Graph::new();
         let start: Vec<Node> = passive_home.iter().map(|value| graph.constant(*value)).collect();
         self.block(&[], &[passive], Program::new(&graph, &start), None);
-
-        let progress = self.local("progress", Count::Exactly(1));
-        let share = graph.constant(1.0 / *continuation as f64);
-        let before = graph.symbol(Symbol::Local(passive_home.len()));
-        let after = graph.add(before, share);
-        let moved: Vec<Node> = home
-            .iter()
-            .enumerate()
-            .map(|(i, home)| {
-                let (value, home) = (graph.symbol(Symbol::Variable(i)), graph.constant(*home));
-                let way = graph.sub(value, home);
-                let way = graph.mul(after, way);
-                graph.add(home, way)
-            })
-            .collect();
-        let on_the_way = graph.substitute(step, |symbol| match symbol {
-            Symbol::Variable(i) => Some(moved[i]),
-            _ => None,
-        });
-        let mut outputs = stepped(&mut graph, &on_the_way);
-        outputs.push(after);
-        let program = Program::new(&graph, &outputs);
-        self.block(&[passive, progress], &[passive, progress], program, Some(*continuation));
-        self.refine(graph, passive, None, step);
+        self.follow(&self.loops.path(&self.model.graph), passive, None);
     }
 
-    /// Computes a pose with errors: the passive variables by Newton's method from their nominal
-    /// values.
+    /// Computes a pose with errors: the passive variables on the path from their nominal values, and
+    /// then the pose.
     fn real_pose(&mut self, real: &RealNodes) {
         let graph = &self.model.graph;
         let nominal = self.nominal();
-        let pose = real.pose.entries();
-        let read = graph.symbols(&[&real.step[..], &pose].concat());
-        let passive = self.loops.passive_home.len();
-        let reads_errors = read.iter().any(|symbol| matches!(symbol, Symbol::Local(i) if *i >= passive));
-        let errors = reads_errors.then(|| {
+        let errors = (!real.errors.is_empty()).then(|| {
             let errors = self.local("source_errors", Count::Exactly(real.errors.len()));
             self.block(&[nominal], &[errors], Program::new(graph, &real.errors), None);
             errors
         });
         let passive = self.local("real_passive", Count::Passive);
         self.stages.push(Stage::Copy { from: ArrayRows { array: nominal, row: Row::All }, to: passive });
-        self.refine(graph.clone(), passive, errors, &real.step);
+        self.follow(&self.loops.path_with_errors(graph, real), passive, errors);
         let reads: Vec<usize> = [passive].into_iter().chain(errors).collect();
         let results = [self.array("pose")];
-        self.block(&reads, &results, Program::new(graph, &pose), None);
+        self.block(&reads, &results, Program::new(graph, &real.pose.entries()), None);
     }
 
-    /// Refines passive variables by Newton's steps. They become NaN if the last step is not small.
-    fn refine(&mut self, mut graph: Graph, passive: usize, errors: Option<usize>, step: &[Node]) {
-        let reads: Vec<usize> = [passive].into_iter().chain(errors).collect();
-        let outputs = stepped(&mut graph, step);
-        let program = Program::new(&graph, &outputs);
-        self.block(&reads, &[passive], program, Some(REFINEMENTS - 1));
-
-        let values: Vec<Node> = (0..step.len()).map(|i| graph.symbol(Symbol::Local(i))).collect();
-        let [change, size] = [step, &values].map(|of| squares(&mut graph, of));
-        let (one, relative) = (graph.constant(1.0), graph.constant(CLOSED));
-        let scale = graph.add(one, size);
-        let largest = graph.mul(relative, scale);
-        let margin = graph.sub(largest, change);
-        let sign = graph.call(Call::Sign, margin);
-        // 1, or the root of a negative number.
-        let one = graph.sqrt(sign);
-        let checked: Vec<Node> = step.iter().map(|step| graph.div(*step, one)).collect();
-        let outputs = stepped(&mut graph, &checked);
-        self.block(&reads, &[passive], Program::new(&graph, &outputs), None);
+    /// Follows a path from the passive variables of an array, which is filled with those at its end.
+    fn follow(&mut self, path: &Path, passive: usize, errors: Option<usize>) {
+        let reached = self.local("reached", Count::Passive);
+        let state = self.local("path", Count::Exactly(path.start.len()));
+        let whole = ArrayRows { array: passive, row: Row::All };
+        self.stages.push(Stage::Copy { from: whole, to: reached });
+        self.block(&[passive], &[state], Program::new(&path.graph, &path.start), None);
+        let writes = [passive, reached, state];
+        let reads: Vec<usize> = [passive].into_iter().chain(errors).chain([reached, state]).collect();
+        self.block(&reads, &writes, Program::new(&path.graph, &path.advance), Some(state));
+        self.block(&reads, &writes[..1], Program::new(&path.graph, &path.finish), None);
     }
-}
-
-fn squares(graph: &mut Graph, values: &[Node]) -> Node {
-    let squares: Vec<Node> = values.iter().map(|value| graph.mul(*value, *value)).collect();
-    squares.into_iter().fold(graph.zero(), |sum, square| graph.add(sum, square))
 }
 
 /// Returns the local symbols that the outputs of a function read, with bounds of their rounding
@@ -175,45 +134,24 @@ pub(super) fn locals(
     let Some(tree) = model.loops.as_ref().filter(|tree| !tree.passive_home.is_empty()) else {
         return Vec::new();
     };
-    let ClosedLoops { passive_home, home, continuation, .. } = tree;
-    let mut p = passive_home.clone();
-    for k in 1..=continuation + REFINEMENTS {
-        let share = (k as f64 / *continuation as f64).min(1.0);
-        let moved = |given: Symbol| match given {
-            Symbol::Variable(i) => home[i] + share * (symbol(given) - home[i]),
-            _ => symbol(given),
-        };
-        newton(&model.graph, &tree.step, &mut p, &[], &moved);
-    }
-    let nominal = rounded_step(&model.graph, &tree.step, &p, &[], &symbol, unit);
+    let graph = &model.graph;
+    let p = tree.path(graph).run(&tree.passive_home, &[], &symbol);
+    let nominal = rounded_step(graph, &tree.nominal.step, &p, &[], &symbol, unit);
     let real = match function {
         Function::RealPose => &tree.real,
         Function::DrawnPose => &tree.drawn,
         Function::DisplacedPose => &tree.displaced,
         _ => return nominal,
     };
-    let graph = &model.graph;
     let errors = Program::new(graph, &real.errors).rounded(
         graph.tables(),
         |given| rounded_symbol(given, &nominal, &symbol, unit),
         unit,
     );
     let values: Vec<f64> = errors.iter().map(|error| error.value).collect();
-    for _ in 0..=REFINEMENTS {
-        newton(graph, &real.step, &mut p, &values, &symbol);
-    }
-    let passive = rounded_step(graph, &real.step, &p, &errors, &symbol, unit);
+    let p = tree.path_with_errors(graph, real).run(&p, &values, &symbol);
+    let passive = rounded_step(graph, &real.system.step, &p, &errors, &symbol, unit);
     passive.into_iter().chain(errors).collect()
-}
-
-/// Subtracts Newton's step from passive variables.
-fn newton(graph: &Graph, step: &[Node], p: &mut [f64], errors: &[f64], symbol: &dyn Fn(Symbol) -> f64) {
-    let step = graph.evaluate(step, |given| match given {
-        // Other nodes may read more of them.
-        Symbol::Local(i) => p.iter().chain(errors).nth(i).copied().unwrap_or(f64::NAN),
-        given => symbol(given),
-    });
-    p.iter_mut().zip(step).for_each(|(value, step)| *value -= step);
 }
 
 /// Returns passive variables after Newton's step from exact values, with the bound of its rounding
@@ -229,7 +167,8 @@ fn rounded_step(
     let exact: Vec<Rounded> = p.iter().map(|value| Rounded::exact(*value, unit)).collect();
     let locals: Vec<Rounded> = exact.iter().chain(errors).copied().collect();
     let mut graph = graph.clone();
-    let outputs = stepped(&mut graph, step);
+    let passive: Vec<Node> = (0..step.len()).map(|i| graph.symbol(Symbol::Local(i))).collect();
+    let outputs: Vec<Node> = passive.iter().zip(step).map(|(value, step)| graph.sub(*value, *step)).collect();
     let program = Program::new(&graph, &outputs);
     program.rounded(graph.tables(), |given| rounded_symbol(given, &locals, symbol, unit), unit)
 }
@@ -239,12 +178,6 @@ fn rounded_symbol(given: Symbol, locals: &[Rounded], symbol: &dyn Fn(Symbol) -> 
         Symbol::Local(i) => locals.get(i).copied().unwrap_or(Rounded::exact(f64::NAN, unit)),
         given => Rounded::exact(symbol(given), unit),
     }
-}
-
-/// Returns the passive variables after a step.
-fn stepped(graph: &mut Graph, step: &[Node]) -> Vec<Node> {
-    let passive: Vec<Node> = (0..step.len()).map(|i| graph.symbol(Symbol::Local(i))).collect();
-    passive.iter().zip(step).map(|(value, step)| graph.sub(*value, *step)).collect()
 }
 
 /// Returns `true` if a program reads passive variables.

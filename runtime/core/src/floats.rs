@@ -49,6 +49,10 @@ macro_rules! scalar {
                 if self >= 0.0 { 1.0 } else if self < 0.0 { -1.0 } else { self }
             }
             #[inline]
+            fn is_positive(self) -> bool {
+                self > 0.0
+            }
+            #[inline]
             fn min(self, other: Self) -> Self {
                 if self < other || self.is_nan() { self } else { other }
             }

@@ -72,6 +72,8 @@ pub trait Scalar:
     fn sign(self) -> Self;
     /// Returns −1 below 0, otherwise 1: the derivative of the absolute value, right-sided at 0.
     fn side(self) -> Self;
+    /// Returns `true` for a number above 0; for several lanes, if one of them is.
+    fn is_positive(self) -> bool;
     /// Returns the smaller of two numbers, or NaN if one is NaN.
     fn min(self, other: Self) -> Self;
     /// Returns the larger of two numbers, or NaN if one is NaN.

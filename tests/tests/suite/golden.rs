@@ -267,6 +267,9 @@ impl Scalar for Dual {
     fn side(self) -> Self {
         Self::constant(Scalar::side(self.0))
     }
+    fn is_positive(self) -> bool {
+        self.0 > 0.0
+    }
     fn min(self, other: Self) -> Self {
         if self.0 < other.0 { self } else { other }
     }

@@ -147,6 +147,9 @@ impl Scalar for Counted {
     fn side(self) -> Self {
         scalar(Kind::Sign, Scalar::side(self.0), -Scalar::side(self.0))
     }
+    fn is_positive(self) -> bool {
+        self.0 > 0.0
+    }
     fn min(self, other: Self) -> Self {
         scalar(Kind::Extremum, Scalar::min(self.0, other.0), Scalar::max(self.0, other.0))
     }

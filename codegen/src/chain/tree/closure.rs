@@ -80,6 +80,30 @@ pub(super) fn residual(
     }
 }
 
+/// Returns numbers that are positive unless a rotation closes upside down. Where `n_k sin θ = 0`
+/// closes equation k of a turn by θ about n,
+///
+/// ```text
+/// tr W − c_k · W c_k = 1 + cos θ        if n_k = 0, which is right
+///                    = −2 n_k²          if θ = 180°
+/// ```
+pub(super) fn upright(
+    graph: &mut Graph,
+    ends: Ends,
+    closure: &Closure,
+    pose: impl Fn(Option<usize>) -> Frame,
+) -> Vec<Node> {
+    let Closure::Coordinates(coordinates) = closure else { return Vec::new() };
+    let [a, b, c] = [ends.first, ends.second, ends.axes].map(pose);
+    let turns = coordinates.iter().filter_map(|coordinate| coordinate.checked_sub(3));
+    let relative = relative(graph, &a, &b);
+    let about = |k: usize| {
+        let rest = traced(graph, &relative, c.axes[k]);
+        graph.dot(c.axes[k], rest)
+    };
+    turns.map(about).collect()
+}
+
 /// Returns the rates of the equations under motions of frames; `length` is the rate of the length.
 pub(super) fn rate(
     graph: &mut Graph,

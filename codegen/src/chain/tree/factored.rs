@@ -1,51 +1,123 @@
 //! Solution of linear equations in straight-line code.
 
+use abbe_spec::expr::Function;
+
+use super::triangular::{Block, blocks};
 use crate::graph::{Graph, Node};
 
-/// A square matrix A = QR by modified Gram-Schmidt orthogonalization. It is stable without pivots
-/// if right-hand sides are orthogonalized like columns (Björck 1967).
+/// A square matrix A, factored block by block: its rows and columns are sorted such that it is block
+/// lower triangular, and each block on the diagonal is `A_bb = Q R` by Householder's reflections,
+/// which are backward stable (Golub, Van Loan: Matrix Computations, 5.2).
 pub(super) struct Factored {
-    /// Columns of Q.
-    orthonormal: Vec<Vec<Node>>,
-    /// Columns of R above the diagonal.
+    columns: Vec<Vec<Node>>,
+    blocks: Vec<FactoredBlock>,
+}
+
+/// A block on the diagonal.
+struct FactoredBlock {
+    block: Block,
+    reflections: Vec<Option<Reflection>>,
+    /// Columns of R, above the diagonal.
     upper: Vec<Vec<Node>>,
     /// Reciprocals of the diagonal of R.
     reciprocals: Vec<Node>,
+    determinant: Node,
+}
+
+/// The reflection `H = I − β v vᵀ` of the entries from its index on.
+struct Reflection {
+    direction: Vec<Node>,
+    factor: Node,
 }
 
 impl Factored {
     /// Factors a matrix given by columns.
     pub(super) fn new(graph: &mut Graph, columns: Vec<Vec<Node>>) -> Self {
-        let mut factored = Self { orthonormal: Vec::new(), upper: Vec::new(), reciprocals: Vec::new() };
-        for mut column in columns {
-            let projections = factored.project(graph, &mut column);
-            let square = dot(graph, &column, &column);
-            let (length, one) = (graph.sqrt(square), graph.constant(1.0));
-            let reciprocal = graph.div(one, length);
-            let unit = column.iter().map(|entry| graph.mul(*entry, reciprocal)).collect();
-            factored.orthonormal.push(unit);
-            factored.upper.push(projections);
-            factored.reciprocals.push(reciprocal);
-        }
-        factored
+        let zero = graph.zero();
+        let blocks = blocks(columns.len(), |row, column| columns[column][row] != zero);
+        let blocks = blocks.into_iter().map(|block| FactoredBlock::new(graph, &columns, block)).collect();
+        Self { columns, blocks }
     }
 
-    /// Removes the components along the columns of Q from a vector, and returns them.
-    fn project(&self, graph: &mut Graph, vector: &mut [Node]) -> Vec<Node> {
-        let project = |unit: &Vec<Node>| {
-            let component = dot(graph, unit, vector);
-            for (entry, direction) in vector.iter_mut().zip(unit) {
-                let part = graph.mul(component, *direction);
-                *entry = graph.sub(*entry, part);
-            }
-            component
-        };
-        self.orthonormal.iter().map(project).collect()
+    /// Returns the determinant of each block on the diagonal.
+    pub(super) fn determinants(&self) -> impl Iterator<Item = Node> {
+        self.blocks.iter().map(|factored| factored.determinant)
     }
 
-    /// Returns the solution x of `A x = b`.
+    /// Returns the solution x of `A x = b`: `A_bb x_b = b_b − Σ A_bc x_c` over the blocks c before b.
     pub(super) fn solve(&self, graph: &mut Graph, right: &[Node]) -> Vec<Node> {
-        let mut solution = self.project(graph, &mut right.to_vec());
+        let mut solution = vec![graph.zero(); right.len()];
+        for factored in &self.blocks {
+            let rest = |row: &usize| {
+                // What is not known yet is zero.
+                let terms: Vec<Node> = self.columns.iter().map(|column| column[*row]).collect();
+                let known = dot(graph, &terms, &solution);
+                graph.sub(right[*row], known)
+            };
+            let rest: Vec<Node> = factored.block.rows.iter().map(rest).collect();
+            let found = factored.solve(graph, rest);
+            factored.block.columns.iter().zip(found).for_each(|(column, found)| solution[*column] = found);
+        }
+        solution
+    }
+
+    /// Returns the solution y of `y A = c`, a row, from the last block to the first.
+    pub(super) fn solve_row(&self, graph: &mut Graph, row: &[Node]) -> Vec<Node> {
+        let mut solution = vec![graph.zero(); row.len()];
+        for factored in self.blocks.iter().rev() {
+            let rest = |column: &usize| {
+                let known = dot(graph, &self.columns[*column], &solution);
+                graph.sub(row[*column], known)
+            };
+            let rest: Vec<Node> = factored.block.columns.iter().map(rest).collect();
+            let found = factored.solve_row(graph, &rest);
+            factored.block.rows.iter().zip(found).for_each(|(row, found)| solution[*row] = found);
+        }
+        solution
+    }
+}
+
+impl FactoredBlock {
+    /// Factors a block. With the entries x of a column from the diagonal on:
+    ///
+    /// ```text
+    /// σ = ±|x|, with the sign of x_1        v = x + σ e_1        β = 1 / (σ v_1)        H x = −σ e_1
+    /// ```
+    ///
+    /// Each reflection changes the sign of the determinant.
+    fn new(graph: &mut Graph, all: &[Vec<Node>], block: Block) -> Self {
+        let entry = |column: &usize| block.rows.iter().map(|row| all[*column][*row]).collect();
+        let mut columns: Vec<Vec<Node>> = block.columns.iter().map(entry).collect();
+        let (zero, one) = (graph.zero(), graph.constant(1.0));
+        let (mut reflections, mut reciprocals, mut determinant) = (Vec::new(), Vec::new(), one);
+        for k in 0..columns.len() {
+            let mut direction = columns[k][k..].to_vec();
+            let reflection = direction[1..].iter().any(|entry| *entry != zero).then(|| {
+                let square = dot(graph, &direction, &direction);
+                let (length, side) = (graph.sqrt(square), graph.call(Function::Side, direction[0]));
+                let signed = graph.mul(side, length);
+                direction[0] = graph.add(direction[0], signed);
+                let product = graph.mul(signed, direction[0]);
+                columns[k][k] = graph.neg(signed);
+                Reflection { factor: graph.div(one, product), direction }
+            });
+            if let Some(reflection) = &reflection {
+                columns[k + 1..].iter_mut().for_each(|column| reflection.apply(graph, &mut column[k..]));
+                determinant = graph.neg(determinant);
+            }
+            determinant = graph.mul(determinant, columns[k][k]);
+            reciprocals.push(graph.div(one, columns[k][k]));
+            reflections.push(reflection);
+        }
+        let upper = (0..).zip(columns).map(|(k, column)| column[..k].to_vec()).collect();
+        Self { block, reflections, upper, reciprocals, determinant }
+    }
+
+    /// Returns `x = R⁻¹ Qᵀ b`.
+    fn solve(&self, graph: &mut Graph, mut solution: Vec<Node>) -> Vec<Node> {
+        for (k, reflection) in self.reflections.iter().enumerate() {
+            reflection.iter().for_each(|reflection| reflection.apply(graph, &mut solution[k..]));
+        }
         for k in (0..solution.len()).rev() {
             for j in k + 1..solution.len() {
                 let part = graph.mul(self.upper[j][k], solution[j]);
@@ -56,21 +128,29 @@ impl Factored {
         solution
     }
 
-    /// Returns the solution y of `y A = c`, a row: `y = c R⁻¹ Qᵀ`.
-    pub(super) fn solve_row(&self, graph: &mut Graph, row: &[Node]) -> Vec<Node> {
-        let mut weights: Vec<Node> = Vec::new();
-        let mut solution = vec![graph.zero(); row.len()];
+    /// Returns `y = c R⁻¹ Qᵀ`.
+    fn solve_row(&self, graph: &mut Graph, row: &[Node]) -> Vec<Node> {
+        let mut solution: Vec<Node> = Vec::new();
         for (k, entry) in row.iter().enumerate() {
-            let known = dot(graph, &self.upper[k], &weights);
+            let known = dot(graph, &self.upper[k], &solution);
             let rest = graph.sub(*entry, known);
-            let weight = graph.mul(rest, self.reciprocals[k]);
-            weights.push(weight);
-            for (sum, direction) in solution.iter_mut().zip(&self.orthonormal[k]) {
-                let part = graph.mul(weight, *direction);
-                *sum = graph.add(*sum, part);
-            }
+            solution.push(graph.mul(rest, self.reciprocals[k]));
+        }
+        for (k, reflection) in self.reflections.iter().enumerate().rev() {
+            reflection.iter().for_each(|reflection| reflection.apply(graph, &mut solution[k..]));
         }
         solution
+    }
+}
+
+impl Reflection {
+    fn apply(&self, graph: &mut Graph, vector: &mut [Node]) {
+        let product = dot(graph, &self.direction, vector);
+        let along = graph.mul(self.factor, product);
+        for (entry, direction) in vector.iter_mut().zip(&self.direction) {
+            let part = graph.mul(along, *direction);
+            *entry = graph.sub(*entry, part);
+        }
     }
 }
 

@@ -4,9 +4,11 @@ use abbe_spec::expr::Symbol;
 use abbe_spec::{Closure, Spec};
 
 use super::closure::{self, Ends};
-use super::continuation::{Continuation, home};
+use super::continuation::{at_home, passive_at_home};
 use super::factored::Factored;
 use super::parts::Parts;
+use super::path::Path;
+use super::system::{LoopSystem, Units};
 use crate::chain::kinematics::magnitudes;
 use crate::chain::real::RealChain;
 use crate::chain::sources::{Causes, PlacedErrors};
@@ -18,11 +20,14 @@ pub(crate) struct ClosedLoops {
     /// Values of the passive variables at home, from which they are found.
     pub(crate) passive_home: Vec<f64>,
     /// Values of the joint variables at home.
-    pub(crate) home: Vec<f64>,
-    /// Number of equal steps by which the joint variables move from home to their values.
-    pub(crate) continuation: usize,
-    /// Newton's step `φ_p⁻¹ φ` of the nominal machine, to be subtracted from p.
-    pub(crate) step: Vec<Node>,
+    pub(super) home: Vec<f64>,
+    /// Nominal values of the parameters.
+    pub(super) parameters: Vec<f64>,
+    /// Limits of the passive variables.
+    pub(super) limits: Vec<[f64; 2]>,
+    pub(super) units: Units,
+    /// The nominal machine.
+    pub(crate) nominal: LoopSystem,
     /// The machine with the errors of the repeatable sources.
     pub(crate) real: RealNodes,
     /// The machine with the errors of all sources, each times its magnitude.
@@ -39,8 +44,8 @@ pub(crate) struct RealNodes {
     /// The errors, at the nominal values of the passive variables. The other nodes read them as
     /// local symbols after the passive variables.
     pub(crate) errors: Vec<Node>,
-    /// Newton's step of the machine with errors, to be subtracted from its p; empty without loops.
-    pub(crate) step: Vec<Node>,
+    /// The loops with these errors; without equations if there are no loops.
+    pub(crate) system: LoopSystem,
     /// Pose of the tool point.
     pub(crate) pose: Frame,
 }
@@ -53,28 +58,48 @@ impl ClosedLoops {
         causes: &Causes,
         errors: &[[Node; 6]],
     ) -> Self {
-        let Continuation { start: passive_home, steps: continuation } = Continuation::new(spec);
-        let residual = parts.residual(graph);
-        let step = parts.factored.solve(graph, &residual);
-        let [real, drawn] =
-            magnitudes(graph, spec).map(|magnitudes| RealNodes::new(graph, spec, causes, &magnitudes));
-        let displaced = RealNodes::displaced(graph, spec, errors);
+        let units = Units::new(spec, graph);
+        let equations = [parts.residual(graph), parts.upright(graph)];
+        let step = parts.factored.solve(graph, &equations[0]);
+        let passive_home = passive_at_home(spec, graph, &equations[0], &step, &units);
+        let nominal = LoopSystem::new(graph, equations, &parts.factored, at_home(spec, &passive_home));
+        let [real, drawn] = magnitudes(graph, spec)
+            .map(|magnitudes| RealNodes::new(graph, spec, causes, &magnitudes, &passive_home));
+        let displaced = RealNodes::displaced(graph, spec, errors, &passive_home);
         Self {
+            home: spec.variables.iter().map(|variable| variable.home).collect(),
+            parameters: spec.parameters.iter().map(|parameter| parameter.value).collect(),
+            limits: spec.passive.iter().map(|variable| variable.limits).collect(),
             passive_home,
-            home: home(&spec.variables),
-            continuation,
-            step,
+            units,
+            nominal,
             real,
             drawn,
             displaced,
             passive: (0..spec.passive.len()).map(|i| graph.symbol(Symbol::Local(i))).collect(),
         }
     }
+
+    /// Returns the path to the nominal passive variables.
+    pub(crate) fn path(&self, graph: &Graph) -> Path {
+        Path::new(graph, self, &self.nominal, None)
+    }
+
+    /// Returns the path from these to the passive variables of a machine with errors.
+    pub(crate) fn path_with_errors(&self, graph: &Graph, real: &RealNodes) -> Path {
+        Path::new(graph, self, &real.system, Some(real.errors.len()))
+    }
 }
 
 impl RealNodes {
     /// Returns the machine with the errors of sources, each times its magnitude.
-    fn new(graph: &mut Graph, spec: &Spec, causes: &Causes, magnitudes: &[Node]) -> Self {
+    fn new(
+        graph: &mut Graph,
+        spec: &Spec,
+        causes: &Causes,
+        magnitudes: &[Node],
+        passive_home: &[f64],
+    ) -> Self {
         let mut causes = causes.clone();
         let mut errors = Vec::new();
         let one = graph.constant(1.0);
@@ -88,18 +113,18 @@ impl RealNodes {
             .map(|deviation| (magnitudes[deviation.source], &mut deviation.error));
         for (magnitude, error) in of_errors.chain(of_numbers) {
             *error = graph.mul(magnitude, *error);
-            // Without loops nothing is repeated, and errors need no array.
-            if !spec.loops.is_empty() && graph.value(*error).is_none() {
+            // Without loops nothing is repeated, and errors need no array; others grow along a path.
+            if !spec.loops.is_empty() && *error != graph.zero() {
                 errors.push(*error);
                 *error = graph.symbol(Symbol::Local(spec.passive.len() + errors.len() - 1));
             }
         }
         let chain = RealChain::new(graph, spec, &causes, vec![one; magnitudes.len()]);
-        Self::of_chain(graph, spec, &chain, errors)
+        Self::of_chain(graph, spec, &chain, errors, passive_home)
     }
 
     /// Returns the machine with given errors of its frames.
-    fn displaced(graph: &mut Graph, spec: &Spec, errors: &[[Node; 6]]) -> Self {
+    fn displaced(graph: &mut Graph, spec: &Spec, errors: &[[Node; 6]], passive_home: &[f64]) -> Self {
         let placed = |(frame, errors): (usize, &[Node; 6])| PlacedErrors {
             source: 0,
             frame,
@@ -111,17 +136,23 @@ impl RealNodes {
         let causes = Causes { errors, deviations: Vec::new() };
         let one = graph.constant(1.0);
         let chain = RealChain::new(graph, spec, &causes, vec![one]);
-        Self::of_chain(graph, spec, &chain, Vec::new())
+        Self::of_chain(graph, spec, &chain, Vec::new(), passive_home)
     }
 
     /// Returns `true` if the errors move the passive variables from their nominal values.
     pub(crate) fn moves_passive(&self, nominal: &ClosedLoops) -> bool {
-        self.step != nominal.step
+        self.system.residual != nominal.nominal.residual
     }
 
-    fn of_chain(graph: &mut Graph, spec: &Spec, chain: &RealChain<'_>, errors: Vec<Node>) -> Self {
+    fn of_chain(
+        graph: &mut Graph,
+        spec: &Spec,
+        chain: &RealChain<'_>,
+        errors: Vec<Node>,
+        passive_home: &[f64],
+    ) -> Self {
         let poses = chain.poses(graph);
-        let mut residual = Vec::new();
+        let (mut residual, mut upright) = (Vec::new(), Vec::new());
         for closed in &spec.loops {
             let ends = Ends::new(spec, closed);
             let poses = chain.poses_below(graph, ends.root(spec));
@@ -132,9 +163,12 @@ impl RealNodes {
             };
             let pose = |frame: Option<usize>| frame.map_or(identity, |frame| poses[frame]);
             residual.extend(closure::residual(graph, ends, &closed.closure, length, pose));
+            upright.extend(closure::upright(graph, ends, &closed.closure, pose));
         }
         let columns = (0..spec.passive.len()).map(|i| graph.diff_all(&residual, Symbol::Local(i))).collect();
-        let step = Factored::new(graph, columns).solve(graph, &residual);
-        Self { errors, step, pose: poses[poses.len() - 1] }
+        let factored = Factored::new(graph, columns);
+        let home = at_home(spec, passive_home);
+        let system = LoopSystem::new(graph, [residual, upright], &factored, home);
+        Self { errors, system, pose: poses[poses.len() - 1] }
     }
 }

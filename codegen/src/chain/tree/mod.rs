@@ -8,9 +8,10 @@
 //! φ(q, p, ε) = 0        δp = −φ_p⁻¹ (φ_ε ε + φ_q δq)        J_e = J_ε − J_p φ_p⁻¹ φ_ε
 //! ```
 //!
-//! `continuation` decides how p is found, `loops` has Newton's steps for it, of the nominal machine
-//! and with errors, and `equations` has φ and φ_p themselves. `lengths` converts errors of the
-//! lengths of legs to errors of frames.
+//! `triangular` sorts φ_p into irreducible blocks. `system` has the equations of a machine and
+//! Newton's step, `continuation` closes it at home, `path` follows a path from there, and `loops` has
+//! the systems of the nominal machine and with errors. `equations` has φ and φ_p themselves, and
+//! `lengths` converts errors of the lengths of legs to errors of frames.
 
 mod closure;
 mod continuation;
@@ -20,11 +21,14 @@ mod lengths;
 mod loops;
 mod model;
 mod parts;
+mod path;
+mod system;
+mod triangular;
 mod view;
 
-pub(crate) use continuation::{CLOSED, REFINEMENTS};
 pub use equations::LoopEquations;
 pub(super) use lengths::add_lengths;
 pub(crate) use loops::{ClosedLoops, RealNodes};
 pub(super) use parts::Parts;
 pub(crate) use parts::passive_by_symbol;
+pub(crate) use path::{Path, STEPS};

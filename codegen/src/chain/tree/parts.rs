@@ -67,6 +67,15 @@ impl<'s> Parts<'s> {
         residual
     }
 
+    /// Returns numbers that are positive unless a rotation closes upside down.
+    pub(super) fn upright(&self, graph: &mut Graph) -> Vec<Node> {
+        let mut upright = Vec::new();
+        for Part { ends, closure, view, .. } in &self.loops {
+            upright.extend(closure::upright(graph, *ends, closure, |frame| *view.pose(frame)));
+        }
+        upright
+    }
+
     /// Returns the columns of `φ_p`, one per passive variable.
     pub(super) fn derivatives(&self, graph: &mut Graph, spec: &Spec) -> Vec<Vec<Node>> {
         (0..spec.passive.len()).map(|i| self.rates_by_symbol(graph, Symbol::Local(i))).collect()

@@ -80,6 +80,7 @@ pub(super) fn documentation(
     let is_input = |array: &abbe_core::function::Array| array.name == "u" && !array.is_empty(description);
     let takes_inputs = signature.arguments.iter().any(is_input);
     let mut codes = vec!["OK", "NOT_FINITE"];
+    codes.extend(description.has_loops().then_some("NOT_CLOSED"));
     codes.extend(signature.has_margin(description.orientation).then_some("SINGULAR"));
     codes.extend(takes_inputs.then_some("OUT_OF_RANGE"));
     codes.extend(further);
@@ -186,7 +187,8 @@ impl Function<'_> {
             return;
         }
         let real = self.printer.real;
-        let [ok, not_finite, singular] = ["OK", "NOT_FINITE", "SINGULAR"].map(|name| self.printer.code(name));
+        let open = if self.flat.routines.description.has_loops() { "NOT_CLOSED" } else { "NOT_FINITE" };
+        let [ok, not_finite, singular] = ["OK", open, "SINGULAR"].map(|name| self.printer.code(name));
         if let Some(margin) = margin {
             self.printer.writer.lines(&format!("const {real} margin = {margin};"));
             let value = format!("(isnan(margin) != 0) ? {not_finite} : {singular}");

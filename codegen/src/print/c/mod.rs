@@ -32,7 +32,7 @@ use super::lists::{lists, numbers};
 use super::names::{file_name, function_of, renamed};
 use super::procedure::Printer;
 use super::source_file::SourceFile;
-use super::text::escaped;
+use super::text::{NOT_CLOSED, escaped};
 use crate::chain::Model;
 use crate::procedure::look_up;
 use crate::program::Routines;
@@ -83,6 +83,9 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real, file: &str) -> Str
         (format!("{upper}_SINGULAR = 2"), "Rows 4 to 6 are Euler angles, which are undefined at this pose."),
         (format!("{upper}_OUT_OF_RANGE = 3"), "An input is outside its range."),
     ];
+    if routines.description.has_loops() {
+        statuses.insert(0, (format!("{upper}_NOT_CLOSED = -1"), NOT_CLOSED));
+    }
     let own = Status::ALL.into_iter().filter(|status| *status != Status::Reached);
     statuses.extend(
         own.map(|status| (format!("{upper}_{} = {}", status.name(), status.code()), status.meaning())),

@@ -42,8 +42,9 @@ impl Syntax for C<'_> {
         let values = ["limits", "home", "parameters", "inputs", "ranges"]
             .map(|what| format!(" {name}_{what}"))
             .concat();
-        let codes =
-            ["OK", "NOT_FINITE", "SINGULAR", "OUT_OF_RANGE"].map(|code| format!(" {upper}_{code}")).concat();
+        let codes = ["OK", "NOT_FINITE", "NOT_CLOSED", "SINGULAR", "OUT_OF_RANGE"]
+            .map(|code| format!(" {upper}_{code}"))
+            .concat();
         Cow::Owned([WORDS, &own, &values, &codes].concat())
     }
 

@@ -6,6 +6,7 @@ use abbe_spec::Spec;
 use super::variables::{CORRECTED, OUTPUTS, Variables};
 use crate::print::c::Real;
 use crate::print::layout::Writer;
+use crate::print::text::NOT_CLOSED;
 
 /// Returns the header.
 pub(super) fn header(spec: &Spec, variables: &Variables, token: &str, included: &str) -> String {
@@ -79,6 +80,9 @@ pub(super) fn header(spec: &Spec, variables: &Variables, token: &str, included: 
         ("OUT_OF_RANGE", "\"An input is outside its range.\""),
     ] {
         writer.lines(&format!("case {upper}_{code}:\n    return {why};"));
+    }
+    if !spec.passive.is_empty() {
+        writer.lines(&format!("case {upper}_NOT_CLOSED:\n    return \"{NOT_CLOSED}\";"));
     }
     writer.lines("default:\n    return \"An output is not finite; check the inputs and parameters.\";");
     writer.close("}");

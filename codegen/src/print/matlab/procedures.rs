@@ -31,6 +31,10 @@ impl Printer for MatlabPrinter<'_> {
     const LOOP_END: &'static str = "end";
     const LEAVE: &'static str = "break";
 
+    fn negated(&self, condition: &str) -> String {
+        format!("~({condition})")
+    }
+
     fn writer(&mut self) -> &mut Writer {
         self.writer
     }

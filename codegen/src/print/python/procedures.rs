@@ -39,6 +39,10 @@ impl Printer for PythonPrinter<'_> {
     const LOOP_END: &'static str = "";
     const LEAVE: &'static str = "break";
 
+    fn negated(&self, condition: &str) -> String {
+        format!("~({condition})")
+    }
+
     fn writer(&mut self) -> &mut Writer {
         self.writer
     }

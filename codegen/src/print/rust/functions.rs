@@ -186,6 +186,12 @@ impl Printer<'_> {
                 let counter = if body.iter().any(Statement::is_counted) { "i" } else { "_" };
                 self.writer.open(&format!("for {counter} in {range}"));
                 body.iter().for_each(|statement| self.statement(statement));
+                if let Some(array) = repeated.while_positive {
+                    let name = self.routine.arrays[array].name;
+                    self.writer.open(&format!("if !{name}[0].is_positive()"));
+                    self.writer.lines("break;");
+                    self.writer.close("}");
+                }
                 self.writer.close("}");
             }
             Statement::Return(value) => self.writer.lines(value),

@@ -239,7 +239,9 @@ impl Block<'_> {
             }
         }
         self.printer.assign("status", "0", None);
-        self.printer.guard("fault", "status := 1;");
+        // Arguments have been checked before.
+        let open = self.flat.routine.function.is_some() && self.flat.routines.description.has_loops();
+        self.printer.guard("fault", if open { "status := -1;" } else { "status := 1;" });
     }
 }
 

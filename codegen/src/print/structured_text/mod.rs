@@ -26,6 +26,7 @@ use self::support::Support;
 use super::header::header;
 use super::layout::Writer;
 use super::source_file::SourceFile;
+use super::text::NOT_CLOSED;
 use crate::procedure::Precision;
 use crate::program::Routines;
 
@@ -42,8 +43,13 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
         writer.documentation(paragraph);
         writer.documentation_line("");
     }
+    let open = if routines.description.has_loops() {
+        format!("-1 `NOT_CLOSED`: {NOT_CLOSED} ")
+    } else {
+        String::new()
+    };
     writer.documentation(&format!(
-        "status: 0 `OK`: The results are valid. 1 `NOT_FINITE`: An argument or a result is not finite, or a function has no \
+        "status: {open} 0 `OK`: The results are valid. 1 `NOT_FINITE`: An argument or a result is not finite, or a function has no \
          value. 2 `SINGULAR`: Rows 4 to 6 are Euler angles, which are undefined at this pose. 3 `OUT_OF_RANGE`: An input is \
          outside its range. Of {}_compensated also: {}",
         syntax.prefix,

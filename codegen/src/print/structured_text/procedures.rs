@@ -111,6 +111,10 @@ impl Printer for BlockPrinter<'_> {
     const SKIPS_EMPTY: bool = true;
     const RESULTS: Results = Results::Kept;
 
+    fn negated(&self, condition: &str) -> String {
+        format!("NOT ({condition})")
+    }
+
     fn writer(&mut self) -> &mut Writer {
         self.writer
     }

@@ -53,11 +53,15 @@ impl<'d, 'm> RoutineBuilder<'d, 'm> {
     }
 
     pub(super) fn each(&mut self, count: Count, body: Body) {
-        self.stages.push(body.stage(Some(Repeated { count, backwards: false })));
+        self.stages.push(body.stage(Some(Repeated { count, backwards: false, while_positive: None })));
     }
 
     pub(super) fn backwards(&mut self, body: Body) {
-        self.stages.push(body.stage(Some(Repeated { count: Count::Frames, backwards: true })));
+        self.stages.push(body.stage(Some(Repeated {
+            count: Count::Frames,
+            backwards: true,
+            while_positive: None,
+        })));
     }
 
     /// Returns the axis of the tool about which the last of the Euler angles turns.

@@ -111,6 +111,10 @@ impl<R: Register> Scalar for Lanes<R> {
         side + within * zero
     }
 
+    fn is_positive(self) -> bool {
+        self.0.lanes().iter().any(|lane| *lane > 0.0)
+    }
+
     #[cfg_attr(debug_assertions, inline(never))]
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn min(self, other: Self) -> Self {

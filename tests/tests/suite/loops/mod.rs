@@ -8,6 +8,7 @@ use abbe_spec::{Identified, Source, Spec, Uncertain};
 use abbe_tests::closed_machines::{FOUR_BAR, hexapod};
 use abbe_tests::specs;
 
+mod closed;
 mod closed_forms;
 mod random;
 

@@ -11,20 +11,41 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 /// Random mechanisms: each loop has passive joints of its own, as many as equations, in a branch
 /// that begins at any earlier frame and ends where another one was put at home.
-struct Mechanism {
+pub(super) struct Mechanism {
     random: Xoshiro256PlusPlus,
-    text: String,
+    pub(super) text: String,
+    pub(super) frames: Vec<MechanismFrame>,
+    pub(super) loops: Vec<MechanismLoop>,
     /// Poses of all frames at home, in `F_0`.
     poses: Vec<Pose>,
     passive: usize,
     commanded: usize,
 }
 
+/// A frame of a mechanism.
+pub(super) struct MechanismFrame {
+    pub(super) parent: Option<usize>,
+    /// Motion of its joint, as an index of the six errors, and its value at home; `true` for a
+    /// passive one.
+    pub(super) joint: Option<(usize, f64, bool)>,
+    /// Pose behind the joint.
+    pub(super) rest: Pose,
+}
+
+/// A loop of a mechanism: its two frames, and the coordinates that close; none for a distance.
+pub(super) struct MechanismLoop {
+    pub(super) frames: [usize; 2],
+    pub(super) coordinates: Vec<usize>,
+    pub(super) length: f64,
+}
+
 impl Mechanism {
-    fn new(seed: u64) -> Self {
+    pub(super) fn new(seed: u64) -> Self {
         let mut mechanism = Self {
             random: Xoshiro256PlusPlus::seed_from_u64(seed),
             text: "[manipulator]\nname = \"mechanism\"\nlength = \"m\"\n".to_owned(),
+            frames: Vec::new(),
+            loops: Vec::new(),
             poses: Vec::new(),
             passive: 0,
             commanded: 0,
@@ -76,8 +97,9 @@ impl Mechanism {
         );
         *(if passive { &mut self.passive } else { &mut self.commanded }) += 1;
         let rest = displacement(&[x, y, z, a, b, c]);
-        let mut moved = [0.0; 6];
-        moved[if is_slide { axis } else { [5, 3, 4][axis] }] = home;
+        let (mut moved, motion) = ([0.0; 6], if is_slide { axis } else { [5, 3, 4][axis] });
+        moved[motion] = home;
+        self.frames.push(MechanismFrame { parent, joint: Some((motion, home, passive)), rest });
         let before = parent.map_or(Pose::IDENTITY, |parent| self.poses[parent]);
         self.poses.push(before.then(&displacement(&moved)).then(&rest));
         index
@@ -130,6 +152,9 @@ impl Mechanism {
             row(2),
         );
         self.poses.push(before.then(&there));
+        self.frames.push(MechanismFrame { parent: other, joint: None, rest: there });
+        let coordinates = if is_distance { Vec::new() } else { coordinates };
+        self.loops.push(MechanismLoop { frames: [end, index], coordinates, length: 0.5 * 3_f64.sqrt() });
     }
 }
 

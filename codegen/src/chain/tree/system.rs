@@ -1,0 +1,123 @@
+//! The equations of all loops of a machine, and Newton's step.
+
+use abbe_core::VariableKind;
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Variable};
+
+use super::continuation::at_home;
+use super::factored::Factored;
+use crate::chain::transform;
+use crate::graph::{Graph, Node};
+
+/// Equations φ of all loops of a machine. Passive variables are local symbols, from 0.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LoopSystem {
+    /// φ, which is zero where the loops close.
+    pub(super) residual: Vec<Node>,
+    /// Numbers that are positive unless a rotation closes upside down.
+    pub(super) upright: Vec<Node>,
+    /// Newton's step `φ_p⁻¹ φ`, to be subtracted from p.
+    pub(crate) step: Vec<Node>,
+    /// Determinants of the irreducible blocks on the diagonal of φ_p, positive at home.
+    pub(super) determinants: Vec<Node>,
+}
+
+impl LoopSystem {
+    pub(super) fn new(
+        graph: &mut Graph,
+        [residual, upright]: [Vec<Node>; 2],
+        factored: &Factored,
+        home: impl Fn(Symbol) -> f64,
+    ) -> Self {
+        let step = factored.solve(graph, &residual);
+        let determinants: Vec<Node> = factored.determinants().collect();
+        let signs = graph.evaluate(&determinants, home).into_iter();
+        let signed = |(determinant, sign)| if sign < 0.0 { graph.neg(determinant) } else { determinant };
+        let determinants = determinants.into_iter().zip(signs).map(signed).collect();
+        Self { residual, upright, step, determinants }
+    }
+
+    /// Returns the system with other nodes for symbols.
+    pub(super) fn substituted(
+        &self,
+        graph: &mut Graph,
+        other: impl Fn(&mut Graph, Symbol) -> Option<Node>,
+    ) -> Self {
+        let all = [&self.residual[..], &self.step, &self.determinants].concat();
+        let symbols = graph.symbols(&all);
+        let others: Vec<_> = symbols.into_iter().map(|symbol| (symbol, other(graph, symbol))).collect();
+        let given = |symbol| others.iter().find(|(known, _)| *known == symbol).and_then(|(_, other)| *other);
+        let mut all = graph.substitute(&all, given).into_iter();
+        let residual = all.by_ref().take(self.residual.len()).collect();
+        let step = all.by_ref().take(self.step.len()).collect();
+        Self { residual, upright: Vec::new(), step, determinants: all.collect() }
+    }
+
+    /// Returns the largest equation, relative to its unit.
+    pub(super) fn gap(&self, graph: &mut Graph, units: &[f64]) -> Node {
+        let mut largest = graph.zero();
+        for (equation, unit) in self.residual.iter().zip(units) {
+            let per_unit = graph.constant(1.0 / unit);
+            let size = graph.call(abbe_spec::expr::Function::Abs, *equation);
+            let size = graph.mul(per_unit, size);
+            largest = graph.max(largest, size);
+        }
+        largest
+    }
+
+    /// Returns the sum of the squares of the steps, relative to the units of the passive variables.
+    pub(super) fn size(&self, graph: &mut Graph, units: &[f64]) -> Node {
+        let mut sum = graph.zero();
+        for (step, unit) in self.step.iter().zip(units) {
+            let per_unit = graph.constant(1.0 / unit);
+            let step = graph.mul(per_unit, *step);
+            let square = graph.mul(step, step);
+            sum = graph.add(sum, square);
+        }
+        sum
+    }
+}
+
+/// Units by which lengths and angles compare: lengths of loops, or 1 rad.
+#[derive(Clone, Debug)]
+pub(crate) struct Units {
+    pub(super) equations: Vec<f64>,
+    pub(super) passive: Vec<f64>,
+    pub(super) variables: Vec<f64>,
+}
+
+impl Units {
+    /// Finds the length of each loop: the sum of the lengths of its frames' transforms at home, and of
+    /// its leg.
+    pub(super) fn new(spec: &Spec, graph: &mut Graph) -> Self {
+        let passive: Vec<f64> = spec.passive.iter().map(|variable| variable.home).collect();
+        let mut length = |closed: &abbe_spec::Loop| {
+            let frames = spec.tree().between(closed);
+            let mut nodes: Vec<Node> = frames
+                .iter()
+                .flat_map(|frame| transform(graph, &spec.frames[*frame].factors).position)
+                .collect();
+            let (zero, leg) = (graph.zero(), closed.closure.length().map(|length| graph.lower(length)));
+            nodes.extend(leg.into_iter().flat_map(|leg| [leg, zero, zero]));
+            let numbers = graph.evaluate(&nodes, at_home(spec, &passive));
+            let lengths = numbers.chunks_exact(3).map(|xyz| xyz.iter().map(|x| x * x).sum::<f64>().sqrt());
+            let length: f64 = lengths.sum();
+            if length > 0.0 && length.is_finite() { length } else { 1.0 }
+        };
+        let lengths: Vec<f64> = spec.loops.iter().map(&mut length).collect();
+        let longest = lengths.iter().copied().reduce(f64::max).unwrap_or(1.0);
+        let unit = |variable: &Variable| match variable.kind {
+            VariableKind::Revolute => 1.0,
+            VariableKind::Prismatic => longest,
+        };
+        let of_loop = |(closed, length): (&abbe_spec::Loop, f64)| {
+            let unit = |i| if closed.closure.is_angle(i) { 1.0 } else { length };
+            (0..closed.closure.equations()).map(unit).collect::<Vec<f64>>()
+        };
+        Self {
+            equations: spec.loops.iter().zip(lengths).flat_map(of_loop).collect(),
+            passive: spec.passive.iter().map(unit).collect(),
+            variables: spec.variables.iter().map(unit).collect(),
+        }
+    }
+}
