@@ -107,7 +107,7 @@ impl Interpreter {
     /// Returns the errors of the corresponding function of [`Manipulator`].
     pub fn run(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
         let values = self.unchecked(function, arguments)?;
-        self.check(function, &values)?;
+        self.check(function, &values).map_err(|error| self.named(error, function, arguments))?;
         Ok(values)
     }
 
@@ -157,6 +157,16 @@ impl Interpreter {
         Ok(evaluated(self.tape(function), arguments[..arrays.len()].iter().copied().flatten()))
     }
 
+    /// Returns the error of the passive variables instead of that of a function that needs them.
+    fn named(&self, error: Error, function: Function, arguments: &[&[f64]]) -> Error {
+        match arguments {
+            [q, s, ..] if error == Error::NotClosed && function != Function::Passive => {
+                self.run(Function::Passive, &[q, s]).err().unwrap_or(error)
+            }
+            _ => error,
+        }
+    }
+
     /// Checks that the results of a function are finite and not singular.
     fn check(&self, function: Function, values: &[f64]) -> Result<(), Error> {
         let signature = function.signature();
@@ -199,7 +209,7 @@ impl Manipulator for Interpreter {
             result.copy_from_slice(these);
             rest = others;
         }
-        self.check(function, &values)
+        self.check(function, &values).map_err(|error| self.named(error, function, arguments))
     }
 }
 

@@ -54,12 +54,14 @@ fn named(error: &Error, description: &Description) -> String {
     let (quantity, index) = match *error {
         Error::NotFinite { quantity, index } => (quantity, index),
         Error::OutOfRange { input, .. } => (Quantity::Inputs, input),
+        Error::PassiveLimit { passive } => (Quantity::Passive, passive),
         _ => return error.to_string(),
     };
     let name = match quantity {
         Quantity::Variables => description.variables.get(index).map(|one| one.name.to_string()),
         Quantity::Parameters => description.parameters.get(index).map(|one| one.name.to_string()),
         Quantity::Inputs => description.inputs.get(index).map(|one| one.name.to_string()),
+        Quantity::Passive => description.passive().nth(index).map(|one| one.name.to_string()),
         Quantity::Errors => {
             Component::ALL.get(index % 6).map(|one| format!("{}{}", one.name(), index / 6 + 1))
         }

@@ -16,9 +16,9 @@ use serde::Serialize;
 
 use crate::finite::finite;
 use crate::machine::Machine;
-use crate::mistake;
 use crate::notes::Notes;
 use crate::number;
+use crate::open_loops;
 
 /// Job of `abbe jacobian`: evaluates `J_e` and `ε` at one configuration.
 #[derive(Clone)]
@@ -86,12 +86,8 @@ impl Jacobian {
             .and_then(|()| Ok([interpreter.pose(&q, &s)?, interpreter.real_pose(&q, &s, &u)?]))
             .map_err(|error| {
                 let error = first_effect(&interpreter, [&q, &s, &u], error);
-                mistake::not_evaluated(
-                    &self.machine.origin,
-                    &number::variables(&q, spec),
-                    &error,
-                    description,
-                )
+                let at = number::variables(&q, spec);
+                open_loops::not_evaluated(&self.machine.origin, &at, &error, description, (spec, &q, &s))
             })?;
         finite(&self.machine.origin, Report::new(description, Arc::clone(spec), q, &poses, &columns, &errors))
     }

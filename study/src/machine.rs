@@ -17,8 +17,8 @@ use abbe_spec::{Factor, Magnitude, Source, Spec};
 
 use crate::calibration::{calibration_errors, has_magnitude, is_measured, tool_in_last_frame};
 use crate::changes::Changes;
-use crate::mistake;
 use crate::table_paths::with_table_paths;
+use crate::{mistake, open_loops};
 use crate::{named, number};
 
 /// Spec of a manipulator, with its generated code and study if it is a shipped one.
@@ -50,11 +50,14 @@ impl Machine {
         refused: &Unevaluated,
         description: &Description,
     ) -> Diagnostics {
-        let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
-            Some(configuration) => number::configuration(&configuration, workspace.home(), &self.spec),
-            None => "home".to_owned(),
+        let home = workspace.home();
+        let found = refused.configuration.and_then(|index| workspace.configuration(index).ok());
+        let (at, here) = match &found {
+            Some(configuration) => (number::configuration(configuration, home, &self.spec), configuration),
+            None => ("home".to_owned(), home),
         };
-        mistake::not_evaluated(&self.origin, &at, &refused.error, description)
+        let machine = (&*self.spec, &here.q[..], &here.s[..]);
+        open_loops::not_evaluated(&self.origin, &at, &refused.error, description, machine)
     }
 
     /// Reads the spec that an argument names: a file if it exists or looks like a path, else a

@@ -103,7 +103,7 @@ pub fn identifiable(
         for (i, Configuration { q, s, .. }) in block.iter().enumerate() {
             let index = Some(b * count + i);
             let pose = match manipulator.error_jacobian(q, s, &mut columns) {
-                Err(Error::NotClosed) => continue,
+                Err(error) if error.is_open() => continue,
                 pose => pose.map_err(|error| at(index, error))?,
             };
             let own = columns.iter().map(|column| twist(description.orientation, &pose, column));

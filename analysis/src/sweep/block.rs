@@ -173,7 +173,7 @@ impl<'a> Block<'a> {
             let index = self.indices[place];
             let jacobian = self.manipulator.error_jacobian(&here.q, &here.s, &mut columns);
             let effects = self.manipulator.effects(&here.q, &here.s, &here.u, &mut effects);
-            if jacobian != Err(Error::NotClosed) {
+            if !jacobian.is_err_and(|error| error.is_open()) {
                 effects.map_err(|error| self.at(place, error))?;
             }
             let infinite = |rows: usize| {
@@ -189,7 +189,11 @@ impl<'a> Block<'a> {
                         return Err(self.at(place, Error::NotFinite { quantity: Quantity::Effects, index }));
                     }
                 }
-                Err(error @ (Error::NotClosed | Error::EulerSingularity { .. })) if infinite(3).is_some() => {
+                // Lanes may close where a single configuration barely does not.
+                Err(error)
+                    if error.is_open()
+                        || matches!(error, Error::EulerSingularity { .. }) && infinite(3).is_some() =>
+                {
                     let (point, reason) = (self.workspace.point(index), ReachError::Evaluation(error));
                     self.unreachable.push(Unreachable { index, point, requested: here.clone(), reason });
                     continue;

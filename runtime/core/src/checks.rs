@@ -117,9 +117,13 @@ pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
 }
 
 /// Checks that all values of a result are finite. If the manipulator has loops, values that are not
-/// finite mean that these do not close.
+/// finite mean that these do not close, and infinite passive variables that they exceed a limit.
 pub fn result_is_finite(description: &Description, quantity: Quantity, values: &[f64]) -> Result<(), Error> {
-    finite(quantity, values).map_err(|error| if description.has_loops() { Error::NotClosed } else { error })
+    finite(quantity, values).map_err(|error| match values.iter().position(|value| value.is_infinite()) {
+        Some(passive) if quantity == Quantity::Passive => Error::PassiveLimit { passive },
+        _ if description.has_loops() => Error::NotClosed,
+        _ => error,
+    })
 }
 
 /// Checks that Euler rows exist at the margin `cos ρ` that a generated function returned.

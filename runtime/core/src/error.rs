@@ -40,13 +40,26 @@ pub enum Error {
     },
     /// The manipulator does not have a function.
     NoFunction(Function),
-    /// The loops do not close: no values of the passive variables were found that close them.
+    /// The loops do not close in the mode of home: the straight path from home ends before the
+    /// joint values, or a passive joint exceeds a limit.
     NotClosed,
+    /// A passive joint exceeds a limit where the loops close.
+    PassiveLimit {
+        /// Index of the passive variable.
+        passive: usize,
+    },
     /// Roll is at ±90°, where the Euler rows are singular.
     EulerSingularity {
         /// `cos ρ`, less than [`MINIMUM_MARGIN`].
         margin: f64,
     },
+}
+
+impl Error {
+    /// Returns `true` if loops do not close, or do so beyond the limit of a passive joint.
+    pub const fn is_open(&self) -> bool {
+        matches!(self, Self::NotClosed | Self::PassiveLimit { .. })
+    }
 }
 
 impl fmt::Display for Error {
@@ -62,9 +75,10 @@ impl fmt::Display for Error {
                 write!(f, "input {input} is {value}, outside its range {lower} … {upper}")
             }
             Self::NoFunction(function) => write!(f, "this manipulator has no function {}", function.name()),
-            Self::NotClosed => f.write_str(
-                "the loops do not close at these joint values: no values of the passive joints were found",
-            ),
+            Self::NotClosed => {
+                f.write_str("the loops do not close at these joint values, on the straight path from home")
+            }
+            Self::PassiveLimit { passive } => write!(f, "passive variable {passive} exceeds a limit"),
             Self::EulerSingularity { margin } => write!(
                 f,
                 "Euler angles are singular here (cos roll = {margin:e}); use orientation = \"rotation-vector\""

@@ -17,6 +17,9 @@ impl Remedy for Error {
                 "an expression divides by zero there or is far too large: check the units of the \
                  spec"
             }
+            Self::PassiveLimit { .. } => {
+                "leave this configuration out, or widen the limits of the passive joint"
+            }
             Self::NotClosed => "leave this configuration out, or correct the lengths of the loops",
             Self::EulerSingularity { .. } => {
                 "leave this configuration out, or set `orientation = \"rotation-vector\"`"

@@ -1,10 +1,11 @@
 //! Unreachable configurations of the workspace, with reasons.
 
-use abbe::analysis::{ReachError, Unreachable, UnreachableSummary};
+use abbe::analysis::{Configuration, ReachError, Unreachable, UnreachableSummary};
 use abbe_spec::Spec;
 use serde::Serialize;
 
 use crate::number;
+use crate::open_loops::open_loops;
 
 /// Reason why configurations are unreachable, with its count.
 #[derive(Clone, Debug, Serialize)]
@@ -55,6 +56,10 @@ pub fn unreachable_reason(unreachable: &Unreachable, spec: &Spec) -> String {
         ReachError::OutsideSumLimit { limit, value } => {
             format!("needs {}", number::beyond_sum_limit(&spec.sum_limits[limit], value, spec.length))
         }
-        ReachError::Evaluation(error) => error.to_string(),
+        ReachError::Evaluation(error) => {
+            let Configuration { q, s, .. } = &unreachable.requested;
+            let further = error.is_open().then(|| open_loops(spec, q, s)).flatten();
+            further.unwrap_or_else(|| error.to_string())
+        }
     }
 }

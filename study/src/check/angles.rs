@@ -9,7 +9,7 @@ use abbe_spec::expr::{Expression, Motion, Symbol, motion};
 use abbe_spec::{Cause, ChainNumber, Deviation, DhNumber, Factor, Spec};
 use serde::Serialize;
 
-use super::chain::value_at_home;
+use crate::closing::value_at_home;
 use crate::number::short;
 
 /// A suspicious number in the spec.

@@ -5,9 +5,11 @@ use std::borrow::Cow;
 use abbe::analysis::sampling;
 use abbe::{Manipulator, Pose};
 use abbe_codegen::graph::Graph;
-use abbe_spec::expr::{Elementary, Symbol};
+use abbe_spec::expr::Elementary;
 use abbe_spec::{DhConvention, DhNumber, Factor, Spec};
 use serde::Serialize;
+
+use crate::closing::value_at_home;
 
 /// Matrices `A_1 … A_n`, the tool and the tool's pose at home, with nominal parameters.
 #[derive(Clone, Debug, Serialize)]
@@ -133,16 +135,4 @@ fn at_home(factor: &Elementary, spec: &Spec) -> f64 {
     let mut graph = Graph::with_tables(&spec.tables);
     let node = graph.lower(&factor.amount);
     graph.evaluate(&[node], |symbol| value_at_home(symbol, spec))[0] + 0.0
-}
-
-/// Returns the value of a symbol at home.
-pub(super) fn value_at_home(symbol: Symbol, spec: &Spec) -> f64 {
-    match symbol {
-        Symbol::Variable(i) => spec.variables[i].home,
-        Symbol::Parameter(i) => spec.parameters[i].value,
-        Symbol::Input(i) => spec.inputs[i].value,
-        // Nodes read passive variables as local symbols.
-        Symbol::Passive(i) | Symbol::Local(i) => spec.passive.get(i).map_or(0.0, |variable| variable.home),
-        Symbol::Magnitude(_) | Symbol::Target(_) | Symbol::Error(_) => 0.0,
-    }
 }

@@ -58,7 +58,7 @@ pub(super) fn count(manipulator: &Interpreter, notes: &mut dyn Notes) -> Result<
     let samples = random_joint_samples(manipulator, &moved, configurations, SEED)
         .map(|workspace| workspace.reached())
         .map_err(|error| error.to_string());
-    let is_open = |at: &Configuration| matches!(manipulator.pose(&at.q, &at.s), Err(Error::NotClosed));
+    let is_open = |at: &Configuration| manipulator.pose(&at.q, &at.s).is_err_and(|error| error.is_open());
     let (open, samples) = match samples {
         Ok(all) => {
             let (open, closed): (Vec<_>, Vec<_>) = all.into_iter().partition(is_open);

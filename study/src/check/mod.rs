@@ -1,6 +1,6 @@
 //! Checks a spec, and reports what follows from it.
 //!
-//! `facts` holds the content of the spec, `chain` its matrices at home, `tree` (with `closing`)
+//! `facts` holds the content of the spec, `chain` its matrices at home, `tree`
 //! what closed loops leave free, `angles` suspicious angles, `axes` unexpected axes of rotation,
 //! `unused` inputs and loads without effect, `identifiable` the number of identifiable errors, and
 //! `laws` the self-checks of the closed form against the exact chain.
@@ -8,7 +8,6 @@
 mod angles;
 mod axes;
 mod chain;
-mod closing;
 mod facts;
 mod identifiable;
 mod laws;

@@ -10,8 +10,8 @@ use abbe_spec::expr::Symbol;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
-use super::closing::Closing;
 use super::facts::kind;
+use crate::closing::Closing;
 
 /// Largest equation, without a unit, of loops that close.
 const CLOSED: f64 = 1e-9;
@@ -170,11 +170,11 @@ impl Tree {
 fn at_home(spec: &Spec, manipulator: &dyn Manipulator) -> (Vec<f64>, Vec<f64>, Home) {
     let description = manipulator.description();
     let (q, s) = (sampling::home(description), sampling::nominal_parameters(description));
-    let closing = Closing::new(spec);
+    let closing = Closing::new(spec, &q, &s);
     let mut passive = vec![0.0; spec.passive.len()];
     let is_found = manipulator.passive(&q, &s, &mut passive).is_ok();
     if !is_found {
-        passive = closing.nearest();
+        passive = closing.nearest(&closing.home());
     }
     let is_closed = closing.size(&passive) <= CLOSED;
     let (condition, free) = conditioning(spec, closing.derivatives(&passive));

@@ -56,7 +56,7 @@ impl<'a> Subject<'a> {
                 transforms = self.transforms(&given.q, &given.s);
             }
             let transforms = match transforms {
-                Err(Error::NotClosed) => {
+                Err(error) if error.is_open() => {
                     open.get_or_insert(given);
                     continue;
                 }

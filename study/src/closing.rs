@@ -1,63 +1,80 @@
-//! Numerical closing of the loops at home, also from values that are far away, and where the
-//! equations are singular.
+//! Numerical closing of the loops, also from values that are far away, and where the equations are
+//! singular.
 
 use abbe_codegen::chain::{LoopEquations, transform};
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 use nalgebra::{DMatrix, DVector};
 
-use super::chain::value_at_home;
 use crate::loop_units::LoopUnits;
 
 /// Maximum number of steps.
 const STEPS: usize = 500;
 
-/// The equations of the loops at home, with lengths relative to the arm length.
-pub(super) struct Closing<'a> {
+/// The equations of the loops at a configuration, with lengths relative to the arm length.
+pub(crate) struct Closing<'a> {
     spec: &'a Spec,
+    pub(crate) q: Vec<f64>,
+    pub(crate) s: Vec<f64>,
     equations: LoopEquations,
     units: LoopUnits,
 }
 
 impl<'a> Closing<'a> {
-    pub(super) fn new(spec: &'a Spec) -> Self {
-        Self { spec, equations: LoopEquations::new(spec), units: LoopUnits::new(spec, arm_length(spec)) }
+    pub(crate) fn new(spec: &'a Spec, q: &[f64], s: &[f64]) -> Self {
+        let units = LoopUnits::new(spec, arm_length(spec));
+        Self { spec, q: q.to_vec(), s: s.to_vec(), equations: LoopEquations::new(spec), units }
+    }
+
+    /// Returns the passive variables at home in the spec.
+    pub(crate) fn home(&self) -> Vec<f64> {
+        self.spec.passive.iter().map(|variable| variable.home).collect()
     }
 
     /// Returns the equations, in the length unit and rad.
-    pub(super) fn residual(&self, passive: &[f64]) -> Vec<f64> {
+    pub(crate) fn residual(&self, passive: &[f64]) -> Vec<f64> {
         self.evaluate(&self.equations.residual, passive)
     }
 
     /// Returns the equations without units.
-    fn scaled(&self, passive: &[f64]) -> DVector<f64> {
+    pub(crate) fn scaled(&self, passive: &[f64]) -> DVector<f64> {
         let rows = &self.units.rows;
         let residual = self.residual(passive).into_iter().zip(rows);
         DVector::from_iterator(rows.len(), residual.map(|(value, unit)| value / unit))
     }
 
     /// Returns the largest equation without units.
-    pub(super) fn size(&self, passive: &[f64]) -> f64 {
+    pub(crate) fn size(&self, passive: &[f64]) -> f64 {
         let size = self.scaled(passive).amax();
         if size.is_finite() { size } else { f64::INFINITY }
     }
 
     /// Returns `φ_p` without units.
-    pub(super) fn derivatives(&self, passive: &[f64]) -> DMatrix<f64> {
+    pub(crate) fn derivatives(&self, passive: &[f64]) -> DMatrix<f64> {
         self.units.derivatives(&self.evaluate(&self.equations.derivatives.concat(), passive))
+    }
+
+    /// Returns Newton's step at given passive variables, in the length unit and rad, and its size
+    /// without units; `None` if `φ_p` is singular.
+    pub(crate) fn step(&self, passive: &[f64]) -> Option<(Vec<f64>, f64)> {
+        let step = self.derivatives(passive).lu().solve(&self.scaled(passive))?;
+        let given = step.iter().zip(&self.units.columns).map(|(step, unit)| step * unit);
+        Some((given.collect(), step.amax()))
     }
 
     fn evaluate(&self, nodes: &[abbe_codegen::graph::Node], passive: &[f64]) -> Vec<f64> {
         self.equations.graph.evaluate(nodes, |symbol| match symbol {
             Symbol::Local(i) => passive[i],
+            Symbol::Variable(i) => self.q[i],
+            Symbol::Parameter(i) => self.s[i],
             symbol => value_at_home(symbol, self.spec),
         })
     }
 
     /// Returns the passive variables for which the sum of squares of the equations has a local
-    /// minimum, by the Levenberg-Marquardt method from their values at home.
-    pub(super) fn nearest(&self) -> Vec<f64> {
-        let mut passive: Vec<f64> = self.spec.passive.iter().map(|variable| variable.home).collect();
+    /// minimum, by the Levenberg-Marquardt method from given values.
+    pub(crate) fn nearest(&self, start: &[f64]) -> Vec<f64> {
+        let mut passive = start.to_vec();
         let mut residual = self.scaled(&passive);
         let mut damping = 1e-3;
         for _ in 0..STEPS {
@@ -95,4 +112,16 @@ fn arm_length(spec: &Spec) -> f64 {
     let lengths = numbers.chunks_exact(3).map(|xyz| xyz.iter().map(|x| x * x).sum::<f64>().sqrt());
     let length: f64 = lengths.sum();
     if length > 0.0 && length.is_finite() { length } else { 1.0 }
+}
+
+/// Returns the value of a symbol at home.
+pub(crate) fn value_at_home(symbol: Symbol, spec: &Spec) -> f64 {
+    match symbol {
+        Symbol::Variable(i) => spec.variables[i].home,
+        Symbol::Parameter(i) => spec.parameters[i].value,
+        Symbol::Input(i) => spec.inputs[i].value,
+        // Nodes read passive variables as local symbols.
+        Symbol::Passive(i) | Symbol::Local(i) => spec.passive.get(i).map_or(0.0, |variable| variable.home),
+        Symbol::Magnitude(_) | Symbol::Target(_) | Symbol::Error(_) => 0.0,
+    }
 }
