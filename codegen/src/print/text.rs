@@ -8,6 +8,9 @@ use abbe_spec::visible::alters_text;
 pub(super) const NOT_CLOSED: &str =
     "A loop does not close on the path from home, or a passive joint exceeds a limit.";
 
+/// Error of loops that do not close.
+pub(super) const OPEN: &str = "a loop does not close, or a passive joint exceeds a limit";
+
 /// Returns the sizes of an array of a function, the outermost first.
 pub(super) fn sizes(array: &Array, description: &Description) -> Vec<String> {
     array.shape.iter().map(|count| count.value(description).to_string()).collect()

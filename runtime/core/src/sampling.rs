@@ -166,6 +166,12 @@ pub fn arm_length(manipulator: &dyn Manipulator, s: &[f64]) -> Result<f64, Error
     Ok(if length > 0.0 { length } else { 1.0 })
 }
 
+/// Returns `false` where the loops of a manipulator do not close.
+pub fn closes(manipulator: &dyn Manipulator, q: &[f64], s: &[f64]) -> bool {
+    let mut passive = vec![0.0; manipulator.description().passive().count()];
+    passive.is_empty() || !manipulator.passive(q, s, &mut passive).is_err_and(|error| error.is_open())
+}
+
 /// Returns the range from which a variable is sampled: its limits. If both are infinite, the range
 /// is half a turn or one arm length to either side of zero. If one is infinite, the range has the
 /// same width and begins at the other.

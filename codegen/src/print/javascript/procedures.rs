@@ -7,6 +7,7 @@ use crate::print::expression::{Expression, Value};
 use crate::print::flat::filled;
 use crate::print::layout::Writer;
 use crate::print::procedure::{Called, Invocation, Printer};
+use crate::print::text::OPEN;
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::{Routine, Routines, Stage};
 
@@ -164,7 +165,8 @@ impl Printer for JavaScriptPrinter<'_> {
             true => format!("({results} = {call});"),
         });
         for (_, len, own) in filled.iter().filter(|_| *in_procedure) {
-            self.writer.lines(&format!("given('result', {own}, {len});"));
+            let name = if self.routines.description.has_loops() { OPEN } else { "result" };
+            self.writer.lines(&format!("given('{name}', {own}, {len});"));
         }
     }
 }

@@ -4,7 +4,7 @@ use super::operators::number;
 use crate::print::expression::{Binding, Expression};
 use crate::print::layout::Writer;
 use crate::print::procedure::{Called, Invocation, Printer};
-use crate::print::text::harmless;
+use crate::print::text::{OPEN, harmless};
 use crate::procedure::{Counter, Index, Procedure, Variable};
 use crate::program::Routines;
 
@@ -141,7 +141,11 @@ impl Printer for MatlabPrinter<'_> {
             let finite: Vec<String> =
                 results.iter().map(|name| format!("all(isfinite({name}(:)))")).collect();
             let condition = format!("~({})", finite.join(" && "));
-            self.guard(&condition, "error('abbe:finite', 'a result is not finite');");
+            let why = match self.routines.description.has_loops() {
+                true => format!("error('abbe:closed', '{OPEN}');"),
+                false => "error('abbe:finite', 'a result is not finite');".to_owned(),
+            };
+            self.guard(&condition, &why);
         }
     }
 }

@@ -9,7 +9,7 @@ use super::operators::number;
 use crate::print::expression::{Binding, Expression, Value};
 use crate::print::layout::Writer;
 use crate::print::procedure::{Called, Invocation, Printer};
-use crate::print::text::harmless;
+use crate::print::text::{OPEN, harmless};
 use crate::procedure::{Condition, Counter, Index, Procedure, Statement, Variable};
 use crate::program::{Role, Routines};
 
@@ -207,7 +207,8 @@ impl Printer for PythonPrinter<'_> {
             let finite: Vec<String> =
                 names.iter().map(|name| format!("np.all(np.isfinite({name}))")).collect();
             self.writer.begin(&format!("if not ({}):", finite.join(" and ")));
-            self.writer.lines("raise ValueError(\"a result is not finite\")");
+            let why = if self.routines.description.has_loops() { OPEN } else { "a result is not finite" };
+            self.writer.lines(&format!("raise ValueError(\"{why}\")"));
             self.writer.end();
         }
     }

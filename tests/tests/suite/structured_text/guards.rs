@@ -72,7 +72,7 @@ fn loops_that_do_not_close_are_a_status() {
         super::set(&mut block, "q", &given[..3]);
         super::set(&mut block, "s", &given[3..7]);
         block.call().unwrap_or_else(|fault| panic!("{function} stops the controller: {fault}"));
-        assert_eq!(block.get("status"), [1.0], "{function}");
+        assert_eq!(block.get("status"), [-1.0], "{function}");
     }
 }
 
