@@ -88,11 +88,11 @@ impl<'d> LoopRoutineBuilder<'d> {
         let mut graph = Graph::new();
         let start: Vec<Node> = passive_home.iter().map(|value| graph.constant(*value)).collect();
         self.block(&[], &[passive], Program::new(&graph, &start), None);
-        self.follow(&self.loops.path(&self.model.graph), passive, None);
+        self.follow(&Path::nominal(&self.model.graph, self.loops), passive, None);
     }
 
-    /// Computes a pose with errors: the passive variables on the path from their nominal values, and
-    /// then the pose.
+    /// Computes a pose with errors: the passive variables on the path from their nominal values,
+    /// and then the pose.
     fn real_pose(&mut self, real: &RealNodes) {
         let graph = &self.model.graph;
         let nominal = self.nominal();
@@ -103,13 +103,14 @@ impl<'d> LoopRoutineBuilder<'d> {
         });
         let passive = self.local("real_passive", Count::Passive);
         self.stages.push(Stage::Copy { from: ArrayRows { array: nominal, row: Row::All }, to: passive });
-        self.follow(&self.loops.path_with_errors(graph, real), passive, errors);
+        self.follow(&Path::with_errors(graph, self.loops, real), passive, errors);
         let reads: Vec<usize> = [passive].into_iter().chain(errors).collect();
         let results = [self.array("pose")];
         self.block(&reads, &results, Program::new(graph, &real.pose.entries()), None);
     }
 
-    /// Follows a path from the passive variables of an array, which is filled with those at its end.
+    /// Follows a path from the passive variables of an array, which is filled with those at its
+    /// end.
     fn follow(&mut self, path: &Path, passive: usize, errors: Option<usize>) {
         let reached = self.local("reached", Count::Passive);
         let state = self.local("path", Count::Exactly(path.start.len()));
@@ -135,7 +136,7 @@ pub(super) fn locals(
         return Vec::new();
     };
     let graph = &model.graph;
-    let p = tree.path(graph).run(&tree.passive_home, &[], &symbol);
+    let p = Path::nominal(graph, tree).run(&tree.passive_home, &[], &symbol);
     let nominal = rounded_step(graph, &tree.nominal.step, &p, &[], &symbol, unit);
     let real = match function {
         Function::RealPose => &tree.real,
@@ -149,7 +150,7 @@ pub(super) fn locals(
         unit,
     );
     let values: Vec<f64> = errors.iter().map(|error| error.value).collect();
-    let p = tree.path_with_errors(graph, real).run(&p, &values, &symbol);
+    let p = Path::with_errors(graph, tree, real).run(&p, &values, &symbol);
     let passive = rounded_step(graph, &real.system.step, &p, &errors, &symbol, unit);
     passive.into_iter().chain(errors).collect()
 }

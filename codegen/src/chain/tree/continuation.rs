@@ -1,25 +1,12 @@
 //! Passive variables at home.
 
 use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
 
-use super::system::Units;
+use super::system::{Units, at_home};
 use crate::graph::{Graph, Node};
 
 /// Largest number of Newton's steps at home.
 const STEPS_AT_HOME: usize = 50;
-
-/// Returns the value of a symbol at home, without errors; `passive` are the passive variables.
-pub(super) fn at_home<'a>(spec: &'a Spec, passive: &'a [f64]) -> impl Fn(Symbol) -> f64 + 'a {
-    move |symbol| match symbol {
-        Symbol::Variable(i) => spec.variables[i].home,
-        Symbol::Parameter(i) => spec.parameters[i].value,
-        Symbol::Input(i) => spec.inputs[i].value,
-        Symbol::Local(i) | Symbol::Passive(i) => passive.get(i).copied().unwrap_or(0.0),
-        Symbol::Magnitude(_) => 1.0,
-        Symbol::Error(_) | Symbol::Target(_) => 0.0,
-    }
-}
 
 /// Closes the loops at home by Newton's method from the passive variables of the spec, and returns
 /// these themselves if that fails.

@@ -5,9 +5,9 @@ use abbe_spec::expr::Function;
 use super::triangular::{Block, blocks};
 use crate::graph::{Graph, Node};
 
-/// A square matrix A, factored block by block: its rows and columns are sorted such that it is block
-/// lower triangular, and each block on the diagonal is `A_bb = Q R` by Householder's reflections,
-/// which are backward stable (Golub, Van Loan: Matrix Computations, 5.2).
+/// A square matrix A, factored block by block: its rows and columns are sorted such that it is
+/// block lower triangular, and each block on the diagonal is `A_bb = Q R` by Householder's
+/// reflections, which are backward stable (Golub, Van Loan: Matrix Computations, 5.2).
 pub(super) struct Factored {
     columns: Vec<Vec<Node>>,
     blocks: Vec<FactoredBlock>,
@@ -44,7 +44,8 @@ impl Factored {
         self.blocks.iter().map(|factored| factored.determinant)
     }
 
-    /// Returns the solution x of `A x = b`: `A_bb x_b = b_b − Σ A_bc x_c` over the blocks c before b.
+    /// Returns the solution x of `A x = b`: `A_bb x_b = b_b − Σ A_bc x_c` over the blocks c before
+    /// b.
     pub(super) fn solve(&self, graph: &mut Graph, right: &[Node]) -> Vec<Node> {
         let mut solution = vec![graph.zero(); right.len()];
         for factored in &self.blocks {

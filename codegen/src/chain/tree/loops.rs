@@ -4,11 +4,10 @@ use abbe_spec::expr::Symbol;
 use abbe_spec::{Closure, Spec};
 
 use super::closure::{self, Ends};
-use super::continuation::{at_home, passive_at_home};
+use super::continuation::passive_at_home;
 use super::factored::Factored;
 use super::parts::Parts;
-use super::path::Path;
-use super::system::{LoopSystem, Units};
+use super::system::{LoopSystem, Units, at_home};
 use crate::chain::kinematics::magnitudes;
 use crate::chain::real::RealChain;
 use crate::chain::sources::{Causes, PlacedErrors};
@@ -79,16 +78,6 @@ impl ClosedLoops {
             passive: (0..spec.passive.len()).map(|i| graph.symbol(Symbol::Local(i))).collect(),
         }
     }
-
-    /// Returns the path to the nominal passive variables.
-    pub(crate) fn path(&self, graph: &Graph) -> Path {
-        Path::new(graph, self, &self.nominal, None)
-    }
-
-    /// Returns the path from these to the passive variables of a machine with errors.
-    pub(crate) fn path_with_errors(&self, graph: &Graph, real: &RealNodes) -> Path {
-        Path::new(graph, self, &real.system, Some(real.errors.len()))
-    }
 }
 
 impl RealNodes {
@@ -113,7 +102,8 @@ impl RealNodes {
             .map(|deviation| (magnitudes[deviation.source], &mut deviation.error));
         for (magnitude, error) in of_errors.chain(of_numbers) {
             *error = graph.mul(magnitude, *error);
-            // Without loops nothing is repeated, and errors need no array; others grow along a path.
+            // Without loops nothing is repeated, and errors need no array; others grow along a
+            // path.
             if !spec.loops.is_empty() && *error != graph.zero() {
                 errors.push(*error);
                 *error = graph.symbol(Symbol::Local(spec.passive.len() + errors.len() - 1));

@@ -9,9 +9,9 @@
 //! ```
 //!
 //! `triangular` sorts φ_p into irreducible blocks. `system` has the equations of a machine and
-//! Newton's step, `continuation` closes it at home, `path` follows a path from there, and `loops` has
-//! the systems of the nominal machine and with errors. `equations` has φ and φ_p themselves, and
-//! `lengths` converts errors of the lengths of legs to errors of frames.
+//! Newton's step, `continuation` closes it at home, `path` follows a path from there, and `loops`
+//! has the systems of the nominal machine and with errors. `equations` has φ and φ_p themselves,
+//! and `lengths` converts errors of the lengths of legs to errors of frames.
 
 mod closure;
 mod continuation;

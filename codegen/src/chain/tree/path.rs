@@ -1,21 +1,24 @@
 //! Newton's method along a path: how the passive variables are found.
 //!
-//! From home to the command, joint variables and parameters move together along a straight line; for
-//! a machine with errors, these grow from zero at the nominal passive variables. With the share t of
-//! the way that is behind, every step of Newton's method is, at a trial share t + h,
+//! From home to the command, joint variables and parameters move together along a straight line;
+//! for a machine with errors, these grow from zero at the nominal passive variables. With the share
+//! t of the way that is behind, each step of Newton's method is, at a trial share t + h,
 //!
 //! ```text
 //! δ = φ_p⁻¹ φ        p ← p − δ        s² = Σ (δ_i / unit_i)²        d_b = det φ_p,bb
 //! ```
 //!
-//! for every irreducible block b of φ_p. It is good if s is at most a quarter of the one before, or the loops close already, and if each `d_b` has its sign at home and at least a quarter
-//! of its size at t. Otherwise p and t stay where they are and h is halved. After two good steps, of
-//! which the second estimates the error of the next, t + h is reached, and h is doubled. A path
-//! that ends where `d_b` becomes zero thus ends there: the loops could go on in another mode.
+//! for every irreducible block b of φ_p. It is good if s is at most half of the one before, or if
+//! the loops close already, and if each `d_b` has its sign at home and at least a quarter of its
+//! size at t. Otherwise p and t go back to where they were, and h is halved. When a later step is
+//! at most a quarter of the one before, t + h is reached; p goes on by as much as it has moved, and
+//! h is doubled if the step was at most an eighth. At the end of the path, the estimate of the next
+//! step, `(s / s_before)² s`, has to be below the tolerance. Where a `d_b` becomes zero, h does,
+//! too: the path ends there, although the loops may close further on in another mode.
 
 use abbe_spec::expr::{Function as Call, Symbol};
 
-use super::loops::ClosedLoops;
+use super::loops::{ClosedLoops, RealNodes};
 use super::system::LoopSystem;
 use crate::graph::{Graph, Node};
 
@@ -38,14 +41,14 @@ const HUGE: f64 = 100.0;
 /// of the loop, and in rad.
 const CLOSED: [f64; 2] = [1e-10, 1e-5];
 
-/// Nodes that find passive variables. Local symbols are, in this order, the passive variables p, the
-/// errors of the machine, p at the share that was reached, and the state.
+/// Nodes that find passive variables. Local symbols are, in this order, the passive variables p,
+/// the errors of the machine, p at the share that was reached, and the state.
 pub(crate) struct Path {
     pub(crate) graph: Graph,
     /// State at the beginning, from p.
     pub(crate) start: Vec<Node>,
-    /// p, p at the share that was reached, and the state after a step. The first number of the state
-    /// is positive while there is more to do.
+    /// p, p at the share that was reached, and the state after a step. The first number of the
+    /// state is positive while there is more to do.
     pub(crate) advance: Vec<Node>,
     /// Passive variables after a last step: not finite unless the loops close in home's mode, and
     /// infinite where a limit is exceeded.
@@ -56,14 +59,18 @@ pub(crate) struct Path {
 const STATE: usize = 6;
 
 impl Path {
-    /// Builds the path of the nominal machine; `count` is the number of errors that are local symbols
-    /// of a machine with errors.
-    pub(crate) fn new(
-        graph: &Graph,
-        loops: &ClosedLoops,
-        system: &LoopSystem,
-        errors: Option<usize>,
-    ) -> Self {
+    /// Builds the path from home to the nominal passive variables.
+    pub(crate) fn nominal(graph: &Graph, loops: &ClosedLoops) -> Self {
+        Self::new(graph, loops, &loops.nominal, None)
+    }
+
+    /// Builds the path from the nominal passive variables to those of a machine with errors.
+    pub(crate) fn with_errors(graph: &Graph, loops: &ClosedLoops, real: &RealNodes) -> Self {
+        Self::new(graph, loops, &real.system, Some(real.errors.len()))
+    }
+
+    /// Builds a path; `errors` is the number of errors that are local symbols, if there are any.
+    fn new(graph: &Graph, loops: &ClosedLoops, system: &LoopSystem, errors: Option<usize>) -> Self {
         let (mut graph, passive) = (graph.clone(), loops.passive_home.len());
         let g = &mut graph;
         let first = passive + errors.unwrap_or(0);
@@ -101,9 +108,9 @@ impl Path {
     }
 }
 
-/// Returns the state at the beginning: 1, the remaining share, h, the largest h, and the tolerance of
-/// the equations, and `s²` before the first step; and 0 for each block, so that at first only the signs
-/// count.
+/// Returns the state at the beginning: 1, the remaining share, h, the largest h, and the tolerance
+/// of the equations, and `s²` before the first step; and 0 for each block, so that at first only
+/// the signs count.
 ///
 /// ```text
 /// h = 1 / max(1, |q_i − home_i| / unit_i)        3 (4 / 3 − 1) − 1 = ± the rounding unit

@@ -4,7 +4,6 @@ use abbe_core::VariableKind;
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Spec, Variable};
 
-use super::continuation::at_home;
 use super::factored::Factored;
 use crate::chain::transform;
 use crate::graph::{Graph, Node};
@@ -87,8 +86,8 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    /// Finds the length of each loop: the sum of the lengths of its frames' transforms at home, and of
-    /// its leg.
+    /// Finds the length of each loop: the sum of the lengths of its frames' transforms at home, and
+    /// of its leg.
     pub(super) fn new(spec: &Spec, graph: &mut Graph) -> Self {
         let passive: Vec<f64> = spec.passive.iter().map(|variable| variable.home).collect();
         let mut length = |closed: &abbe_spec::Loop| {
@@ -119,5 +118,17 @@ impl Units {
             passive: spec.passive.iter().map(unit).collect(),
             variables: spec.variables.iter().map(unit).collect(),
         }
+    }
+}
+
+/// Returns the value of a symbol at home, without errors; `passive` are the passive variables.
+pub(super) fn at_home<'a>(spec: &'a Spec, passive: &'a [f64]) -> impl Fn(Symbol) -> f64 + 'a {
+    move |symbol| match symbol {
+        Symbol::Variable(i) => spec.variables[i].home,
+        Symbol::Parameter(i) => spec.parameters[i].value,
+        Symbol::Input(i) => spec.inputs[i].value,
+        Symbol::Local(i) | Symbol::Passive(i) => passive.get(i).copied().unwrap_or(0.0),
+        Symbol::Magnitude(_) => 1.0,
+        Symbol::Error(_) | Symbol::Target(_) => 0.0,
     }
 }

@@ -75,8 +75,8 @@ macro_rules! function_of_loops_table {
             $($passed_on)*:
 
             Passive = passive(q, s) -> (passive):
-                "Passive variables for which all loops close, reached continuously from home as `q` moves from home to its \
-                 value along a straight line.";
+                "Passive variables for which all loops close, reached continuously from home as `q` and `s` move from home to their \
+                 values along a straight line.";
 
             DisplacedPose = displaced_pose(q, s, errors) -> (pose):
                 "Exact pose of the tool point in `F_0` with given errors of the frames, all loops closed.";

@@ -243,8 +243,8 @@ impl OwnMachine {
         joints.filter(|(.., is_passive)| *is_passive == passive).map(|(_, home, _)| home).collect()
     }
 
-    /// Returns the equations relative to their units, and the smallest number that is negative where a
-    /// rotation is upside down.
+    /// Returns the equations relative to their units, and the smallest number that is negative
+    /// where a rotation is upside down.
     fn residual(&self, q: &[f64], p: &[f64]) -> (Vec<f64>, f64) {
         let (mut q, mut p) = (q.iter(), p.iter());
         let mut poses: Vec<Pose> = Vec::new();
