@@ -97,8 +97,8 @@ fn closed_from(closing: &Closing<'_>, from: &[f64]) -> Option<Vec<f64>> {
         let (step, size) = closing.step(&passive)?;
         passive.iter_mut().zip(&step).for_each(|(value, step)| *value -= step);
         moved += size;
-        // A comparison with NaN is false.
-        if !(moved < FARTHEST) {
+        let is_near = moved < FARTHEST;
+        if !is_near {
             return None;
         }
     }

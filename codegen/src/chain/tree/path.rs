@@ -98,8 +98,8 @@ impl Path {
         for _ in 0..STEPS {
             let (p, others) = values.split_at(start.len());
             values = evaluate(&self.advance, &[p, errors, others]);
-            // A comparison with NaN is false.
-            if !(values[2 * start.len()] > 0.0) {
+            let goes_on = values[2 * start.len()] > 0.0;
+            if !goes_on {
                 break;
             }
         }
