@@ -193,7 +193,7 @@ class Machine:
 
         `of`: "predict" for ΔX by the repeatable sources, or "error_jacobian"; units are those of
         that function per coherent unit of the parameter. The derivatives are exact; the first call
-        takes some milliseconds to find them. `inputs`: as for `generalized_errors`. Closed loops stay
+        takes some milliseconds to find them. `inputs`: as for `generalized_errors`. Loops stay
         closed.
 
         >>> import abbe

@@ -506,8 +506,7 @@ fn a_ball_is_one_error() {
     }
 }
 
-/// What remains of a ball after compensation, as a length, is there if any of its parts has an
-/// effect, and only then.
+/// The residual of a ball, as a length, is there if any of its parts has an effect, and only then.
 #[test]
 fn the_residual_of_a_ball_asks_all_parts() {
     let ball = |part| Class::Tolerance(Distribution::Ball { part, parts: 3 });

@@ -11,6 +11,7 @@ use abbe_study::analyze::figures::FigureData;
 use abbe_study::analyze::{Analyze, Report};
 use abbe_study::bound::Bound;
 use abbe_study::export::{Export, Format};
+use abbe_study::open_loops::not_evaluated;
 use abbe_study::{Machine, Study};
 
 use crate::closed_machines::{FOUR_BAR, TWO_ARMS, hexapod, some_errors};
@@ -85,6 +86,31 @@ fn configurations_that_do_not_close_are_unreachable() {
     assert!(reason.reason.contains("loops do not close"), "{}", reason.reason);
     assert_eq!(reason.count + report.budget.configurations, 1000);
     assert!(reason.count > 0 && reason.count < 500, "{}", reason.count);
+}
+
+/// Commands out of reach name the loop, what is missing from its links, and the end of the path from
+/// home.
+#[test]
+fn open_loops_are_named() {
+    let links = [
+        ("Tx(100) Rz(p2) Tx(80)", "Tx(120) Rz(p2) Tx(90)"),
+        ("Tx(40)", "Tx(100)"),
+        ("Rz(p1) Tx(120)", "Rz(p1) Tx(40)"),
+    ];
+    let text = links.iter().fold(FOUR_BAR.to_owned(), |text, (from, to)| text.replace(from, to));
+    let machine = machine(&text);
+    let (evaluator, q) = (machine.evaluator(true), [-100_f64.to_radians()]);
+    let error = evaluator.pose(&q, &[]).unwrap_err();
+    let spec = (&*machine.spec, &q[..], &[][..]);
+    let message = not_evaluated("machine.toml", "here", &error, evaluator.description(), spec).to_string();
+    // From the end of the crank to the ground, less the coupler and the rocker.
+    let [x, y] = [120.0 - 100.0 * (-100_f64).to_radians().cos(), 100.0 * 100_f64.to_radians().sin()];
+    let gap = f64::hypot(x, y) - 130.0;
+    assert!(message.contains(&format!("loop \"knee\" stays open by {gap:.2}")), "{message}");
+    // The knee is stretched where (120 − 100 cos q)² + (100 sin q)² = 130².
+    let end = -((24_400.0_f64 - 16_900.0) / 24_000.0).acos().to_degrees();
+    let share = 100.0 * (60.0 - end) / 160.0;
+    assert!(message.contains(&format!("ends after {share:.0} % of the way")), "{message}");
 }
 
 /// The figure of the machine at home has a line from each frame to the one that it hangs on, and

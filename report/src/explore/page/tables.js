@@ -47,7 +47,7 @@ export function createJacobian({ report: { length, frames, rows, columns }, mach
             Math.max(...row.filter((_, j) => Math.floor(j / 3) % 2 === column / 3).map(Math.abs))))));
         tables.forEach(({ cells }, f) => cells.forEach((row, i) => row.forEach((cell, c) => {
             const share = Math.abs(values[i][6 * f + c]) / largest[Number(i > 2)][Number(c > 2)];
-            setText(cell, Number.isNaN(values[i][6 * f + c]) ? "–" : share > 1e-12 ? digits(values[i][6 * f + c], 3) : "·");
+            setText(cell, !Number.isFinite(values[i][6 * f + c]) ? "–" : share > 1e-12 ? digits(values[i][6 * f + c], 3) : "·");
             cell.style.setProperty("--heat", `${Math.round(100 * share) || 0}%`);
         })));
     };

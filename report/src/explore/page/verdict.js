@@ -69,7 +69,7 @@ export function createVerdict(panel) {
         const { radius, repeatableRadius, randomRadius, shares } = figures[measurand];
         const limit = tolerances[measurand];
         const isMet = limit !== null && radius <= limit;
-        const isOpen = report.has_loops && Number.isNaN(figures.position.radius);
+        const isOpen = report.has_loops && !Number.isFinite(figures.position.radius);
         // A study of the compensated machine judges what this page does not compute.
         const isJudged = limit !== null && report.study.judged === "as-built";
         element.classList.toggle("missed", isOpen || (isJudged && !isMet));

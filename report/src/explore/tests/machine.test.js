@@ -47,8 +47,8 @@ function assertAgrees(report, machine, state) {
     const [analyze, jacobian] = commands(report, state);
     const evaluation = machine.evaluate(state);
     const { position, orientation } = evaluation;
-    if (report.has_loops && Number.isNaN(position.radius)) {
-        assert.throws(() => shell(`${jacobian} 2>&1`), /loop/, jacobian);
+    if (report.has_loops && !Number.isFinite(position.radius)) {
+        assert.throws(() => shell(`${jacobian} 2>&1`), /loop|limits/, jacobian);
         return 0;
     }
     const size = Math.max(...position.norms, 1e-6);
@@ -118,7 +118,7 @@ for (const name of new Set([...SHIPPED, "palletizer", "hexapod", ...otherSpecs()
             const reach = Math.max(...pose.map(Math.abs));
             if (report.has_loops) {
                 assert.deepEqual(real, []);
-                if (Number.isNaN(reach)) continue;
+                if (!Number.isFinite(reach)) continue;
             }
             close(ideal.at(-1), pose, reach, "ideal");
             if (report.has_loops) continue;

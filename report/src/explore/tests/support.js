@@ -92,12 +92,13 @@ export function randomNumbers(seed) {
     };
 }
 
-/** Returns a state as a user might set it: within limits, with parameters near their values. */
+/** Returns a state as a user might set it: within limits, with parameters near their values, nearer where loops must close at home. */
 export function randomState(report, random) {
+    const part = report.has_loops ? 0.01 : 0.1;
     const state = initialState(report);
     const between = ([lower, upper]) => (lower ?? -2) + random() * ((upper ?? 2) - (lower ?? -2));
     state.q = report.variables.map(({ limits }) => between(limits));
-    state.s = report.parameters.map(({ nominal }) => (random() < 0.5 ? nominal : nominal * between([0.9, 1.1])));
+    state.s = report.parameters.map(({ nominal }) => (random() < 0.5 ? nominal : nominal * between([1 - part, 1 + part])));
     state.u = report.inputs.map(({ range, nominal }) => (range.includes(null) ? nominal + between([-1, 1]) * (nominal || 1) : between(range)));
     state.factors = report.sources.map(({ follows }, k) =>
         follows === k ? [0, state.factors[k], 1, 3 * random()][Math.floor(4 * random())] : state.factors[k]);

@@ -38,9 +38,14 @@ impl FourBar {
     }
 
     fn interpreter(&self) -> Interpreter {
+        let text = self.text();
+        Interpreter::new(Spec::parse("machine.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    }
+
+    fn text(&self) -> String {
         let Self { links: [crank, coupler, rocker, ground], home, .. } = self;
         let [p1, p2] = self.knee(*home, self.links).unwrap();
-        let text = format!(
+        format!(
             r#"
 [manipulator]
 name = "four_bar"
@@ -71,8 +76,7 @@ closes = ["x", "y"]
 frame = "coupler"
 transform = "Ty(30)"
 "#
-        );
-        Interpreter::new(Spec::parse("machine.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+        )
     }
 
     /// Returns the angles of the knee, where two circles intersect.
@@ -380,4 +384,64 @@ fn mechanisms_close_in_the_mode_of_home_or_are_refused() {
         "{machines} mechanisms: {regular} regular paths, others: {answered} answered, {refused} refused"
     );
     assert!(regular > machines / 2 && refused > machines / 4);
+}
+
+/// The limits of a passive joint hold: beyond them a command is refused, and the joint is named.
+#[test]
+fn limits_of_passive_joints_hold() {
+    let machine = FourBar { links: [40.0, 120.0, 80.0, 100.0], home: 1.0, side: 1.0 };
+    let text = machine.text();
+    let [_, p2] = machine.knee(1.0, machine.links).unwrap();
+    let limits = [p2 - 0.2, p2 + 0.3];
+    let limited =
+        text.replace("name = \"p2\",", &format!("name = \"p2\", limits = [{}, {}],", limits[0], limits[1]));
+    let [free, limited] =
+        [text, limited].map(|text| Interpreter::new(Spec::parse("machine.toml", &text).unwrap()));
+    let mut counts = [0; 2];
+    for k in 0..200 {
+        let q = -PI + TAU * f64::from(k) / 200.0;
+        let mut passive = [0.0; 2];
+        free.passive(&[q], &machine.links, &mut passive).unwrap();
+        let is_inside = passive[1] >= limits[0] && passive[1] <= limits[1];
+        let found = limited.passive(&[q], &machine.links, &mut passive);
+        let expected = if is_inside { Ok(()) } else { Err(Error::PassiveLimit { passive: 1 }) };
+        assert_eq!(found, expected, "{q}");
+        counts[usize::from(is_inside)] += 1;
+    }
+    assert!(counts.iter().all(|count| *count > 20), "{counts:?}");
+}
+
+/// A rotation never closes upside down, where the antisymmetric part of its matrix vanishes, too.
+#[test]
+fn rotations_do_not_close_upside_down() {
+    let at = |home: f64| {
+        let text = format!(
+            r#"
+[manipulator]
+name = "gear"
+length = "mm"
+[[frame]]
+name = "drive"
+variable = {{ name = "q", kind = "revolute" }}
+transform = "Rz(q) Tx(50)"
+[[frame]]
+name = "follower"
+parent = "base"
+variable = {{ name = "p", kind = "revolute", passive = true, home = {home} }}
+transform = "Rz(p) Tx(80)"
+[[loop]]
+name = "belt"
+frames = ["drive", "follower"]
+closes = ["rz"]
+[tool]
+frame = "follower"
+transform = "Ty(30)"
+"#
+        );
+        let machine = Interpreter::new(Spec::parse("machine.toml", &text).unwrap_or_else(|m| panic!("{m}")));
+        let mut passive = [0.0];
+        machine.passive(&[0.4], &[], &mut passive).map(|()| passive[0])
+    };
+    assert!((at(0.3).unwrap() - 0.4).abs() < 1e-12);
+    assert_eq!(at(PI), Err(Error::NotClosed));
 }
