@@ -88,8 +88,7 @@ fn configurations_that_do_not_close_are_unreachable() {
     assert!(reason.count > 0 && reason.count < 500, "{}", reason.count);
 }
 
-/// Commands out of reach name the loop, what is missing from its links, and the end of the path from
-/// home.
+/// Commands out of reach name the loop, what its links lack, and the end of the path from home.
 #[test]
 fn open_loops_are_named() {
     let links = [
@@ -107,8 +106,8 @@ fn open_loops_are_named() {
     let [x, y] = [120.0 - 100.0 * (-100_f64).to_radians().cos(), 100.0 * 100_f64.to_radians().sin()];
     let gap = f64::hypot(x, y) - 130.0;
     assert!(message.contains(&format!("loop \"knee\" stays open by {gap:.2}")), "{message}");
-    // The knee is stretched where (120 − 100 cos q)² + (100 sin q)² = 130².
-    let end = -((24_400.0_f64 - 16_900.0) / 24_000.0).acos().to_degrees();
+    // The knee is folded where (120 − 100 cos q)² + (100 sin q)² = (90 − 40)².
+    let end = ((24_400.0_f64 - 2_500.0) / 24_000.0).acos().to_degrees();
     let share = 100.0 * (60.0 - end) / 160.0;
     assert!(message.contains(&format!("ends after {share:.0} % of the way")), "{message}");
 }

@@ -54,7 +54,7 @@ export function createSweep(panel) {
             ...peaks.filter(({ peak }) => peak > 0).sort((a, b) => b.peak - a.peak).slice(0, CURVES)];
         lines.forEach((line, i) => line.setAttribute("d", path((all[i]?.curve ?? []).map((error, k) =>
             [across(values[k]), above(error)]))));
-        const ends = all.map(({ name, curve }, i) => ({ name, kind: kinds[i], y: above(curve.findLast(Number.isFinite) ?? NaN) }));
+        const ends = all.map(({ name, curve }, i) => ({ name, kind: kinds[i], y: above(curve.filter(Number.isFinite).at(-1) ?? NaN) }));
         writeNames([...ends, { name: "tolerance", kind: "", y: above(limit ?? NaN) }].filter(({ y }) => y > 0));
         tolerance.setAttribute("d", limit === null ? "" : path([[LEFT, above(limit)], [width - RIGHT, above(limit)]]));
         here.setAttribute("d", path([TOP, height - BOTTOM].map((y) => [across(state.q[joint]), y])));
