@@ -105,7 +105,7 @@ fn open_loops_are_named() {
     // From the end of the crank to the ground, less the coupler and the rocker.
     let [x, y] = [120.0 - 100.0 * (-100_f64).to_radians().cos(), 100.0 * 100_f64.to_radians().sin()];
     let gap = f64::hypot(x, y) - 130.0;
-    assert!(message.contains(&format!("loop \"knee\" stays open by {gap:.2}")), "{message}");
+    assert!(message.contains(&format!("loop \"knee\" stays open by {gap:.4}")), "{message}");
     // The knee is folded where (120 − 100 cos q)² + (100 sin q)² = (90 − 40)².
     let end = ((24_400.0_f64 - 2_500.0) / 24_000.0).acos().to_degrees();
     let share = 100.0 * (60.0 - end) / 160.0;
