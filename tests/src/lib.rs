@@ -9,6 +9,7 @@ pub mod erroneous;
 pub mod frame_loop;
 pub mod hostile;
 pub mod languages;
+pub mod mechanisms;
 pub mod mutants;
 pub mod needs;
 pub mod processes;

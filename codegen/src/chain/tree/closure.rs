@@ -37,6 +37,11 @@ impl Ends {
         Self { first, second, axes }
     }
 
+    /// Returns `true` if a frame is one of them.
+    pub(super) fn contains(self, frame: usize) -> bool {
+        [self.first, self.second, self.axes].contains(&Some(frame))
+    }
+
     /// Returns the last frame that carries all of them; `None` for `F_0`.
     pub(super) fn root(self, spec: &Spec) -> Option<usize> {
         let paths = [self.first, self.second, self.axes].map(|frame| spec.path(frame));

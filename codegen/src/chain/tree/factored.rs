@@ -6,8 +6,9 @@ use super::triangular::{Block, blocks};
 use crate::graph::{Graph, Node};
 
 /// A square matrix A, factored block by block: its rows and columns are sorted such that it is
-/// block lower triangular, and each block on the diagonal is `A_bb = Q R` by Householder's
-/// reflections, which are backward stable (Golub, Van Loan: Matrix Computations, 5.2).
+/// block lower triangular, and each block on the diagonal is `S A_bb = Q R` by Householder's
+/// reflections, which are backward stable (Golub, Van Loan: Matrix Computations, 5.2). S divides
+/// each row by its unit: rows of lengths in mm would leave nothing of rows of angles beside them.
 pub(super) struct Factored {
     columns: Vec<Vec<Node>>,
     blocks: Vec<FactoredBlock>,
@@ -16,12 +17,17 @@ pub(super) struct Factored {
 /// A block on the diagonal.
 struct FactoredBlock {
     block: Block,
+    /// Diagonal of S.
+    scales: Vec<Node>,
     reflections: Vec<Option<Reflection>>,
     /// Columns of R, above the diagonal.
     upper: Vec<Vec<Node>>,
     /// Reciprocals of the diagonal of R.
     reciprocals: Vec<Node>,
     determinant: Node,
+    /// Product of the squares of the lengths of the columns, at least the square of the determinant
+    /// (Hadamard).
+    bound: Node,
 }
 
 /// The reflection `H = I − β v vᵀ` of the entries from its index on.
@@ -31,17 +37,18 @@ struct Reflection {
 }
 
 impl Factored {
-    /// Factors a matrix given by columns.
-    pub(super) fn new(graph: &mut Graph, columns: Vec<Vec<Node>>) -> Self {
+    /// Factors a matrix given by columns; `units` are those of its rows.
+    pub(super) fn new(graph: &mut Graph, columns: Vec<Vec<Node>>, units: &[f64]) -> Self {
         let zero = graph.zero();
         let blocks = blocks(columns.len(), |row, column| columns[column][row] != zero);
-        let blocks = blocks.into_iter().map(|block| FactoredBlock::new(graph, &columns, block)).collect();
+        let blocks =
+            blocks.into_iter().map(|block| FactoredBlock::new(graph, &columns, units, block)).collect();
         Self { columns, blocks }
     }
 
-    /// Returns the determinant of each block on the diagonal.
-    pub(super) fn determinants(&self) -> impl Iterator<Item = Node> {
-        self.blocks.iter().map(|factored| factored.determinant)
+    /// Returns the determinant of each block on the diagonal, and a bound of its square.
+    pub(super) fn determinants(&self) -> impl Iterator<Item = [Node; 2]> {
+        self.blocks.iter().map(|factored| [factored.determinant, factored.bound])
     }
 
     /// Returns the solution x of `A x = b`: `A_bb x_b = b_b − Σ A_bc x_c` over the blocks c before
@@ -86,10 +93,21 @@ impl FactoredBlock {
     /// ```
     ///
     /// Each reflection changes the sign of the determinant.
-    fn new(graph: &mut Graph, all: &[Vec<Node>], block: Block) -> Self {
-        let entry = |column: &usize| block.rows.iter().map(|row| all[*column][*row]).collect();
-        let mut columns: Vec<Vec<Node>> = block.columns.iter().map(entry).collect();
+    fn new(graph: &mut Graph, all: &[Vec<Node>], units: &[f64], block: Block) -> Self {
+        let least = block.rows.iter().map(|row| units[*row]).fold(f64::INFINITY, f64::min);
+        // Powers of two round nothing.
+        let scale = |row: &usize| graph.constant((least / units[*row]).log2().round().exp2());
+        let scales: Vec<Node> = block.rows.iter().map(scale).collect();
+        let mut columns: Vec<Vec<Node>> = Vec::new();
+        for column in &block.columns {
+            let entries = block.rows.iter().map(|row| all[*column][*row]);
+            columns.push(scales.iter().zip(entries).map(|(scale, entry)| graph.mul(*scale, entry)).collect());
+        }
         let (zero, one) = (graph.zero(), graph.constant(1.0));
+        let bound = columns.iter().fold(one, |bound, column| {
+            let square = dot(graph, column, column);
+            graph.mul(bound, square)
+        });
         let (mut reflections, mut reciprocals, mut determinant) = (Vec::new(), Vec::new(), one);
         for k in 0..columns.len() {
             let mut direction = columns[k][k..].to_vec();
@@ -111,11 +129,12 @@ impl FactoredBlock {
             reflections.push(reflection);
         }
         let upper = (0..).zip(columns).map(|(k, column)| column[..k].to_vec()).collect();
-        Self { block, reflections, upper, reciprocals, determinant }
+        Self { block, scales, reflections, upper, reciprocals, determinant, bound }
     }
 
-    /// Returns `x = R⁻¹ Qᵀ b`.
-    fn solve(&self, graph: &mut Graph, mut solution: Vec<Node>) -> Vec<Node> {
+    /// Returns `x = R⁻¹ Qᵀ S b`.
+    fn solve(&self, graph: &mut Graph, right: Vec<Node>) -> Vec<Node> {
+        let mut solution = self.scaled(graph, right);
         for (k, reflection) in self.reflections.iter().enumerate() {
             reflection.iter().for_each(|reflection| reflection.apply(graph, &mut solution[k..]));
         }
@@ -129,7 +148,7 @@ impl FactoredBlock {
         solution
     }
 
-    /// Returns `y = c R⁻¹ Qᵀ`.
+    /// Returns `y = c R⁻¹ Qᵀ S`.
     fn solve_row(&self, graph: &mut Graph, row: &[Node]) -> Vec<Node> {
         let mut solution: Vec<Node> = Vec::new();
         for (k, entry) in row.iter().enumerate() {
@@ -140,7 +159,11 @@ impl FactoredBlock {
         for (k, reflection) in self.reflections.iter().enumerate().rev() {
             reflection.iter().for_each(|reflection| reflection.apply(graph, &mut solution[k..]));
         }
-        solution
+        self.scaled(graph, solution)
+    }
+
+    fn scaled(&self, graph: &mut Graph, vector: Vec<Node>) -> Vec<Node> {
+        vector.into_iter().zip(&self.scales).map(|(entry, scale)| graph.mul(*scale, entry)).collect()
     }
 }
 

@@ -63,8 +63,8 @@ impl ClosedLoops {
         let passive_home = passive_at_home(spec, graph, &equations[0], &step, &units);
         let nominal = LoopSystem::new(graph, equations, &parts.factored, at_home(spec, &passive_home));
         let [real, drawn] = magnitudes(graph, spec)
-            .map(|magnitudes| RealNodes::new(graph, spec, causes, &magnitudes, &passive_home));
-        let displaced = RealNodes::displaced(graph, spec, errors, &passive_home);
+            .map(|magnitudes| RealNodes::new(graph, spec, causes, &magnitudes, &units, &passive_home));
+        let displaced = RealNodes::displaced(graph, spec, errors, &units, &passive_home);
         Self {
             home: spec.variables.iter().map(|variable| variable.home).collect(),
             parameters: spec.parameters.iter().map(|parameter| parameter.value).collect(),
@@ -87,6 +87,7 @@ impl RealNodes {
         spec: &Spec,
         causes: &Causes,
         magnitudes: &[Node],
+        units: &Units,
         passive_home: &[f64],
     ) -> Self {
         let mut causes = causes.clone();
@@ -110,11 +111,17 @@ impl RealNodes {
             }
         }
         let chain = RealChain::new(graph, spec, &causes, vec![one; magnitudes.len()]);
-        Self::of_chain(graph, spec, &chain, errors, passive_home)
+        Self::of_chain(graph, spec, &chain, errors, units, passive_home)
     }
 
     /// Returns the machine with given errors of its frames.
-    fn displaced(graph: &mut Graph, spec: &Spec, errors: &[[Node; 6]], passive_home: &[f64]) -> Self {
+    fn displaced(
+        graph: &mut Graph,
+        spec: &Spec,
+        errors: &[[Node; 6]],
+        units: &Units,
+        passive_home: &[f64],
+    ) -> Self {
         let placed = |(frame, errors): (usize, &[Node; 6])| PlacedErrors {
             source: 0,
             frame,
@@ -126,7 +133,7 @@ impl RealNodes {
         let causes = Causes { errors, deviations: Vec::new() };
         let one = graph.constant(1.0);
         let chain = RealChain::new(graph, spec, &causes, vec![one]);
-        Self::of_chain(graph, spec, &chain, Vec::new(), passive_home)
+        Self::of_chain(graph, spec, &chain, Vec::new(), units, passive_home)
     }
 
     /// Returns `true` if the errors move the passive variables from their nominal values.
@@ -139,6 +146,7 @@ impl RealNodes {
         spec: &Spec,
         chain: &RealChain<'_>,
         errors: Vec<Node>,
+        units: &Units,
         passive_home: &[f64],
     ) -> Self {
         let poses = chain.poses(graph);
@@ -156,7 +164,7 @@ impl RealNodes {
             upright.extend(closure::upright(graph, ends, &closed.closure, pose));
         }
         let columns = (0..spec.passive.len()).map(|i| graph.diff_all(&residual, Symbol::Local(i))).collect();
-        let factored = Factored::new(graph, columns);
+        let factored = Factored::new(graph, columns, &units.equations);
         let home = at_home(spec, passive_home);
         let system = LoopSystem::new(graph, [residual, upright], &factored, home);
         Self { errors, system, pose: poses[poses.len() - 1] }

@@ -6,6 +6,7 @@ use abbe_spec::{Closure, Factor, Spec};
 
 use super::closure::{self, Ends};
 use super::factored::{Factored, dot};
+use super::system::Units;
 use super::view::{Motion, View};
 use crate::graph::{Graph, Node, Vector};
 
@@ -42,11 +43,12 @@ impl<'s> Parts<'s> {
             let view = View::new(graph, spec, ends.root(spec));
             loops.push(Part { ends, closure: &closed.closure, length, view });
         }
-        let factored = Factored::new(graph, Vec::new());
+        let factored = Factored::new(graph, Vec::new(), &[]);
         let free = free_frames(spec);
         let mut parts = Self { whole, loops, free, factored, eliminated: vec![Vec::new(); 6] };
         let columns = parts.derivatives(graph, spec);
-        parts.factored = Factored::new(graph, columns);
+        let units = Units::new(spec, graph);
+        parts.factored = Factored::new(graph, columns, &units.equations);
         let passive = (0..spec.passive.len()).map(Symbol::Local);
         let tool: Vec<[Node; 6]> = passive.map(|symbol| parts.tool_by_symbol(graph, symbol)).collect();
         parts.eliminated = (0..6)
@@ -184,7 +186,8 @@ fn free_frames(spec: &Spec) -> Vec<bool> {
     for (child, frame) in spec.frames.iter().enumerate() {
         frame.parent.into_iter().for_each(|parent| children[parent].push(child));
     }
-    let is_end = |frame: usize| spec.loops.iter().any(|closed| closed.frames.contains(&Some(frame)));
+    // The axes of a loop's coordinates move with the body, too.
+    let is_end = |frame: usize| spec.loops.iter().any(|closed| Ends::new(spec, closed).contains(frame));
     let only_child = |frame: &usize| match children[*frame][..] {
         [child] if !is_end(*frame) && spec.tool_frame != *frame => Some(child),
         _ => None,

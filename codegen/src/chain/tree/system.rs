@@ -8,6 +8,9 @@ use super::factored::Factored;
 use crate::chain::transform;
 use crate::graph::{Graph, Node};
 
+/// Determinants that are zero, relative to the product of the lengths of the columns.
+const SINGULAR: f64 = 1e-12;
+
 /// Equations φ of all loops of a machine. Passive variables are local symbols, from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LoopSystem {
@@ -17,7 +20,8 @@ pub(crate) struct LoopSystem {
     pub(super) upright: Vec<Node>,
     /// Newton's step `φ_p⁻¹ φ`, to be subtracted from p.
     pub(crate) step: Vec<Node>,
-    /// Determinants of the irreducible blocks on the diagonal of φ_p, positive at home.
+    /// Determinants of the irreducible blocks on the diagonal of φ_p, positive at home; negative
+    /// where they are zero at home.
     pub(super) determinants: Vec<Node>,
 }
 
@@ -29,10 +33,18 @@ impl LoopSystem {
         home: impl Fn(Symbol) -> f64,
     ) -> Self {
         let step = factored.solve(graph, &residual);
-        let determinants: Vec<Node> = factored.determinants().collect();
-        let signs = graph.evaluate(&determinants, home).into_iter();
-        let signed = |(determinant, sign)| if sign < 0.0 { graph.neg(determinant) } else { determinant };
-        let determinants = determinants.into_iter().zip(signs).map(signed).collect();
+        let determinants: Vec<[Node; 2]> = factored.determinants().collect();
+        let at_home = graph.evaluate(determinants.as_flattened(), home);
+        let mut signed = Vec::new();
+        for ([determinant, _], at_home) in determinants.into_iter().zip(at_home.chunks_exact(2)) {
+            signed.push(match (at_home[0].abs() > SINGULAR * at_home[1].sqrt(), at_home[0] < 0.0) {
+                (true, true) => graph.neg(determinant),
+                (true, false) => determinant,
+                // Without a sign at home there is no mode.
+                (false, _) => graph.constant(-1.0),
+            });
+        }
+        let determinants = signed;
         Self { residual, upright, step, determinants }
     }
 

@@ -35,6 +35,7 @@ pub(crate) const TESTS: Tests = &[
     ("headers_are_those_of_cpp_too", headers_are_those_of_cpp_too),
     ("single_precision_is_as_close_as_the_chapter_says", single::shipped_robots),
     ("single_precision_of_long_chains_and_tables", single::long_chains_and_tables),
+    ("single_precision_of_mechanisms", single::mechanisms),
     ("single_precision_of_sines", single::sines),
     ("self_tests_pass_and_fail", single::self_tests),
     ("selected_functions_are_alone", selected::are_alone),

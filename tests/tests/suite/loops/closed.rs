@@ -5,12 +5,11 @@ use std::f64::consts::{PI, TAU};
 use abbe::{Error, Manipulator, Pose, displacement};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_tests::mechanisms::Mechanism;
 use abbe_tests::sample_size;
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-
-use super::random::Mechanism;
 
 /// A four-bar linkage: crank, coupler, rocker and ground; the angle of the crank at home; and the
 /// side of the knee.

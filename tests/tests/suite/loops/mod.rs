@@ -83,6 +83,42 @@ fn assert_close(found: &[f64], expected: &[f64], scale: f64) {
     }
 }
 
+/// A platform that six passive joints move freely, on one, two and three coordinates of balls that
+/// are fixed to it: the axes of these coordinates move with the platform, but not with the errors of
+/// the balls.
+#[test]
+fn errors_of_balls_in_grooves_obey_the_laws() {
+    let mut text = "[manipulator]\nname = \"coupling\"\nlength = \"mm\"\n".to_owned();
+    let mut frame = |name: &str, parent: &str, transform: &str, variable: &str| {
+        let variable = match variable {
+            "" => String::new(),
+            given => format!("variable = {{ {given} }}\n"),
+        };
+        let rest = format!("parent = \"{parent}\"\ntransform = \"{transform}\"\n{variable}");
+        text += &format!("[[frame]]\nname = \"{name}\"\n{rest}");
+    };
+    let names = ["base", "x", "y", "z", "a", "b", "c"];
+    for (pair, motion) in names.windows(2).zip(["Tx", "Ty", "Tz", "Rx", "Ry", "Rz"]) {
+        let [parent, name] = [pair[0], pair[1]];
+        let kind = if motion.starts_with('T') { "prismatic" } else { "revolute" };
+        let variable = format!("name = \"{name}\", kind = \"{kind}\", passive = true, home = 0.0");
+        frame(name, parent, &format!("{motion}({name})"), &variable);
+    }
+    let places = ["Tx(0)", "Tx(300)", "Tx(100) Ty(250)"];
+    for (i, place) in places.iter().enumerate() {
+        let variable = format!("name = \"q{i}\", kind = \"prismatic\", limits = [-30, 40], home = 0.0");
+        frame(&format!("post{i}"), "base", &format!("{place} Tz(q{i})"), &variable);
+        frame(&format!("ball{i}"), "c", place, "");
+    }
+    for (i, closes) in [r#""x", "y", "z""#, r#""y", "z""#, r#""z""#].iter().enumerate() {
+        text +=
+            &format!("[[loop]]\nname = \"{i}\"\nframes = [\"post{i}\", \"ball{i}\"]\ncloses = [{closes}]\n");
+    }
+    text += "[tool]\nframe = \"c\"\ntransform = \"Tx(50) Ty(60) Tz(70)\"\n";
+    let machine = interpreter(&text);
+    laws::all(&machine, 20).unwrap_or_else(|failure| panic!("{failure}"));
+}
+
 abbe_macro::manipulator!("specs/linkage.toml");
 abbe::test_manipulator!(generated_linkage: linkage::Linkage);
 

@@ -1,162 +1,12 @@
 //! Random mechanisms.
 
-use std::fmt::Write;
-
-use abbe::{Manipulator, Pose, displacement, laws};
+use abbe::{Error, Manipulator, laws};
 use abbe_interpreter::Interpreter;
-use abbe_spec::{Closure, Spec};
+use abbe_spec::Spec;
+use abbe_tests::mechanisms::{Mechanism, is_regular};
 use abbe_tests::sample_size;
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Random mechanisms: each loop has passive joints of its own, as many as equations, in a branch
-/// that begins at any earlier frame and ends where another one was put at home.
-pub(super) struct Mechanism {
-    random: Xoshiro256PlusPlus,
-    pub(super) text: String,
-    pub(super) frames: Vec<MechanismFrame>,
-    pub(super) loops: Vec<MechanismLoop>,
-    /// Poses of all frames at home, in `F_0`.
-    poses: Vec<Pose>,
-    passive: usize,
-    commanded: usize,
-}
-
-/// A frame of a mechanism.
-pub(super) struct MechanismFrame {
-    pub(super) parent: Option<usize>,
-    /// Motion of its joint, as an index of the six errors, and its value at home; `true` for a
-    /// passive one.
-    pub(super) joint: Option<(usize, f64, bool)>,
-    /// Pose behind the joint.
-    pub(super) rest: Pose,
-}
-
-/// A loop of a mechanism: its two frames, and the coordinates that close; none for a distance.
-pub(super) struct MechanismLoop {
-    pub(super) frames: [usize; 2],
-    pub(super) coordinates: Vec<usize>,
-    pub(super) length: f64,
-}
-
-impl Mechanism {
-    pub(super) fn new(seed: u64) -> Self {
-        let mut mechanism = Self {
-            random: Xoshiro256PlusPlus::seed_from_u64(seed),
-            text: "[manipulator]\nname = \"mechanism\"\nlength = \"m\"\n".to_owned(),
-            frames: Vec::new(),
-            loops: Vec::new(),
-            poses: Vec::new(),
-            passive: 0,
-            commanded: 0,
-        };
-        mechanism.joint(None, false, true);
-        let loops = 1 + seed % 3;
-        for number in 0..loops {
-            mechanism.close(number);
-        }
-        // The tool is on any frame that something moves.
-        let tool = mechanism.below(mechanism.poses.len());
-        let _ =
-            write!(mechanism.text, "[tool]\nframe = \"f{tool}\"\ntransform = \"Tx(0.2) Rz(0.3) Ty(0.1)\"\n");
-        mechanism
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        self.random.random_range(0..count)
-    }
-
-    /// Returns a number from −1 to 1 with three decimals.
-    fn number(&mut self) -> f64 {
-        (self.below(2001) as f64 - 1000.0) / 1000.0
-    }
-
-    /// Adds a frame in general position with a joint, and returns its index.
-    fn joint(&mut self, parent: Option<usize>, passive: bool, may_slide: bool) -> usize {
-        let numbers: Vec<f64> = (0..6).map(|_| self.number()).collect();
-        let home = 0.4 * self.number();
-        let (axis, is_slide) = (self.below(3), self.below(4) == 0 && may_slide);
-        let [x, y, z, a, b, c] = [0, 1, 2, 3, 4, 5].map(|i| numbers[i]);
-        let index = self.poses.len();
-        let name = match passive {
-            true => format!("p{}", self.passive),
-            false => format!("q{}", self.commanded),
-        };
-        let kind = if is_slide { "prismatic" } else { "revolute" };
-        let motion = format!("{}{}({name})", if is_slide { "T" } else { "R" }, ["x", "y", "z"][axis]);
-        let flags = match passive {
-            true => "passive = true".to_owned(),
-            false => format!("limits = [{}, {}]", home - 0.05, home + 0.05),
-        };
-        let parent_name = parent.map_or("base".to_owned(), |parent| format!("f{parent}"));
-        let _ = write!(
-            self.text,
-            "[[frame]]\nname = \"f{index}\"\nparent = \"{parent_name}\"\n\
-             variable = {{ name = \"{name}\", kind = \"{kind}\", home = {home}, {flags} }}\n\
-             transform = \"{motion} Tx({x}) Ty({y}) Tz({z}) Ry({a}) Rz({b}) Rx({c})\"\n"
-        );
-        *(if passive { &mut self.passive } else { &mut self.commanded }) += 1;
-        let rest = displacement(&[x, y, z, a, b, c]);
-        let (mut moved, motion) = ([0.0; 6], if is_slide { axis } else { [5, 3, 4][axis] });
-        moved[motion] = home;
-        self.frames.push(MechanismFrame { parent, joint: Some((motion, home, passive)), rest });
-        let before = parent.map_or(Pose::IDENTITY, |parent| self.poses[parent]);
-        self.poses.push(before.then(&displacement(&moved)).then(&rest));
-        index
-    }
-
-    /// Adds a loop that closes at home.
-    fn close(&mut self, number: u64) {
-        let mut coordinates: Vec<usize> = (0..6).filter(|_| self.below(2) == 0).collect();
-        let is_distance = self.below(3) == 0;
-        if is_distance || coordinates.is_empty() {
-            coordinates = vec![0];
-        }
-        let start = self.below(self.poses.len());
-        let mut end = start;
-        let mut remaining = coordinates.len();
-        // Slides do not turn anything.
-        let mut slides = coordinates.iter().filter(|coordinate| **coordinate < 3).count();
-        while remaining > 0 {
-            // A commanded joint between passive ones now and then.
-            let passive = self.below(4) != 0;
-            let text = self.text.len();
-            end = self.joint(Some(end), passive, slides > 0);
-            remaining -= usize::from(passive);
-            slides -= usize::from(passive && self.text[text..].contains("prismatic"));
-        }
-        let other = if self.below(2) == 0 { None } else { Some(self.below(start + 1)) };
-        let before = other.map_or(Pose::IDENTITY, |other| self.poses[other]);
-        let mut there = before.inverse().then(&self.poses[end]);
-        let closes = match is_distance {
-            true => {
-                there.0[3] = there.0[3].map(|coordinate| coordinate + 0.5);
-                format!("\"distance\"\nlength = \"{:?} m\"", 0.5 * 3_f64.sqrt())
-            }
-            false => {
-                format!("{:?}", coordinates.iter().map(|i| Closure::COORDINATES[*i]).collect::<Vec<_>>())
-            }
-        };
-        let row = |i: usize| {
-            format!("[{:?}, {:?}, {:?}, {:?}]", there.0[0][i], there.0[1][i], there.0[2][i], there.0[3][i])
-        };
-        let index = self.poses.len();
-        let other_name = other.map_or("base".to_owned(), |other| format!("f{other}"));
-        let _ = write!(
-            self.text,
-            "[[frame]]\nname = \"f{index}\"\nparent = \"{other_name}\"\n\
-             matrix = [{}, {}, {}, [0, 0, 0, 1]]\n\
-             [[loop]]\nname = \"{number}\"\nframes = [\"f{end}\", \"f{index}\"]\ncloses = {closes}\n",
-            row(0),
-            row(1),
-            row(2),
-        );
-        self.poses.push(before.then(&there));
-        self.frames.push(MechanismFrame { parent: other, joint: None, rest: there });
-        let coordinates = if is_distance { Vec::new() } else { coordinates };
-        self.loops.push(MechanismLoop { frames: [end, index], coordinates, length: 0.5 * 3_f64.sqrt() });
-    }
-}
+use super::{interpreter, samples};
 
 /// Mechanisms with one to three loops obey the laws, 50 in a thorough run: `J_e` is the derivative
 /// of the machine that closes with errors. Mechanisms that are singular at home, or nearly so, do
@@ -182,25 +32,12 @@ fn laws_hold_for_random_mechanisms() {
     assert!(held.iter().all(|held| *held > 0) && singular < 100, "{held:?} {singular}");
 }
 
-/// Returns `true` if the mechanism closes around home, and errors and joints have effects of their
-/// order there.
-fn is_regular(machine: &Interpreter) -> bool {
-    let description = machine.description();
-    let home: Vec<f64> = description.variables.iter().map(|variable| variable.home).collect();
-    let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
-    let passive = |q: &[f64]| {
-        let mut passive = vec![0.0; description.passive().count()];
-        machine.passive(q, &[], &mut passive).ok().map(|()| passive)
-    };
-    let closes_around = |(i, share): (usize, f64)| {
-        let mut q = home.clone();
-        q[i] += 0.05 * share;
-        let [before, after] = [&home, &q].map(|q| passive(q));
-        let pairs = before.zip(after);
-        pairs.is_some_and(|(a, b)| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.3))
-            && machine.error_jacobian(&q, &[], &mut columns).is_ok()
-            && columns.as_flattened().iter().all(|entry| entry.abs() < 10.0)
-    };
-    let mut steps = (0..home.len()).flat_map(|i| [(i, -1.0), (i, 1.0)]);
-    steps.all(closes_around)
+/// A mechanism whose passive joints can move by themselves at home has no mode there, and is refused
+/// everywhere; its determinant is a rounding error of either sign.
+#[test]
+fn mechanisms_that_are_singular_at_home_are_refused() {
+    let machine = interpreter(&Mechanism::in_millimetres(25).text);
+    for q in samples(&machine, 20) {
+        assert_eq!(machine.pose(&q, &[]), Err(Error::NotClosed));
+    }
 }

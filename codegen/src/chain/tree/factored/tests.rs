@@ -4,8 +4,10 @@ use abbe_spec::expr::Symbol;
 
 use super::*;
 
+const UNITS: [f64; 5] = [1.0, 1e6, 1.0, 300.0, 0.1];
+
 /// Both solutions satisfy their equations, also where elimination without pivots would divide
-/// by zero.
+/// by zero, and where rows have units that differ by a million.
 #[test]
 fn solutions_satisfy_the_equations() {
     let mut graph = Graph::new();
@@ -16,17 +18,20 @@ fn solutions_satisfy_the_equations() {
         .map(|j| (0..5).map(|i| if (i + j) % 4 == 0 { zero } else { entries[5 * j + i] }).collect())
         .collect();
     let right: Vec<Node> = (0..5).map(|i| g.symbol(Symbol::Parameter(i))).collect();
-    let factored = Factored::new(g, columns.clone());
+    let unit = |i: usize| UNITS[i % 5];
+    let factored = Factored::new(g, columns.clone(), &UNITS);
     let (x, y) = (factored.solve(g, &right), factored.solve_row(g, &right));
     let rows: Vec<Vec<Node>> = (0..5).map(|i| columns.iter().map(|column| column[i]).collect()).collect();
     let mut residuals: Vec<Node> = Vec::new();
     for k in 0..5 {
-        for product in [dot(g, &rows[k], &x), dot(g, &columns[k], &y)] {
-            residuals.push(g.sub(product, right[k]));
-        }
+        let (product, row) = (dot(g, &rows[k], &x), g.constant(1.0 / unit(k)));
+        let residual = g.sub(product, right[k]);
+        residuals.push(g.mul(row, residual));
+        let product = dot(g, &columns[k], &y);
+        residuals.push(g.sub(product, right[k]));
     }
     let value = |symbol| match symbol {
-        Symbol::Local(i) => (1.7 * i as f64).sin(),
+        Symbol::Local(i) => unit(i) * (1.7 * i as f64).sin(),
         Symbol::Parameter(i) => 1.0 + i as f64,
         _ => f64::NAN,
     };
