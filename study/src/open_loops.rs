@@ -38,7 +38,7 @@ pub fn not_evaluated(
 }
 
 /// Returns a sentence about the loops at a configuration; `None` if they close in the mode of home.
-pub(crate) fn open_loops(spec: &Spec, q: &[f64], s: &[f64]) -> Option<String> {
+pub fn open_loops(spec: &Spec, q: &[f64], s: &[f64]) -> Option<String> {
     let home: Vec<f64> = spec.variables.iter().map(|variable| variable.home).collect();
     let nominal: Vec<f64> = spec.parameters.iter().map(|parameter| parameter.value).collect();
     if spec.loops.is_empty() || q.len() != home.len() || s.len() != nominal.len() {

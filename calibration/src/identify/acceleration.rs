@@ -23,8 +23,8 @@ const BEND: f64 = 0.75;
 
 impl Solver<'_> {
     /// Returns `δ + ½ a`, or δ if `a` is too long.
-    pub(super) fn accelerated(&self, step: DVector<f64>, damping: f64) -> Result<DVector<f64>, Failure> {
-        let there = &self.x + &step * AHEAD;
+    pub(super) fn accelerated(&self, step: &DVector<f64>, damping: f64) -> Result<DVector<f64>, Failure> {
+        let there = &self.x + step * AHEAD;
         let block = |first: usize, rows: &[Observation]| {
             let mut scratch = self.model.scratch();
             let (mut sum, mut ahead) = (DVector::zeros(step.len()), Vec::new());
@@ -43,9 +43,9 @@ impl Solver<'_> {
         };
         let mut bend = DVector::zeros(step.len());
         by_blocks(self.data, block, |part| bend += part)?;
-        let Some(half) = self.problem.solve_normal(&(bend * -0.5), damping) else { return Ok(step) };
+        let Some(half) = self.problem.solve_normal(&(bend * -0.5), damping) else { return Ok(step.clone()) };
         let scale = self.scale();
         let length = |step: &DVector<f64>| step.component_mul(&scale).norm();
-        Ok(if 2.0 * length(&half) <= BEND * length(&step) { step + half } else { step })
+        Ok(if 2.0 * length(&half) <= BEND * length(step) { step + half } else { step.clone() })
     }
 }

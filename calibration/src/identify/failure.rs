@@ -37,6 +37,21 @@ pub enum Failure {
     },
 }
 
+impl Failure {
+    /// Returns `true` if loops do not close.
+    pub(super) const fn is_open(&self) -> bool {
+        matches!(self, Self::Observation { error, .. } | Self::Machine(error) if error.is_open())
+    }
+
+    /// Returns a result; `None` where loops do not close, so that a step ends there.
+    pub(super) fn unless_open<T>(result: Result<T, Self>) -> Result<Option<T>, Self> {
+        match result {
+            Err(failure) if failure.is_open() => Ok(None),
+            other => other.map(Some),
+        }
+    }
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -97,8 +97,11 @@ impl Solver<'_> {
                         damping *= 10.0;
                         continue;
                     };
-                    let found = self.residuals(&trial)?;
-                    if self.robust_cost(loss, &found.norms, scale, &trial) <= before * (1.0 + 1e-12) {
+                    let found = Failure::unless_open(self.residuals(&trial))?;
+                    let is_better = |found: &Residuals| {
+                        self.robust_cost(loss, &found.norms, scale, &trial) <= before * (1.0 + 1e-12)
+                    };
+                    if let Some(found) = found.filter(is_better) {
                         moved = (&trial - &self.x).component_mul(&self.scale()).amax();
                         damping = f64::max(damping * 0.1, 1e-15);
                         (self.x, norms, self.linearized) = (trial, found.norms, false);

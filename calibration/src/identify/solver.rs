@@ -101,13 +101,15 @@ impl<'a> Solver<'a> {
                 damping = f64::max(damping * 10.0, 1e-12);
                 continue;
             };
-            let trial = self.within(&self.x + if curved { self.accelerated(step, damping)? } else { step });
+            let bent = if curved { Failure::unless_open(self.accelerated(&step, damping))? } else { None };
+            let trial = self.within(&self.x + bent.unwrap_or(step));
             let share = (&trial - &self.x).component_mul(&self.scale()).norm();
             // Far below the effect of a single measurement.
             let small = share < 1e-7 * (1.0 + self.cost.sqrt());
-            let (data_alone, problem, cost) = self.linearize(&trial)?;
+            let found = Failure::unless_open(self.linearize(&trial))?;
             self.steps += 1;
-            if cost <= self.cost * (1.0 + 1e-12) {
+            let better = found.filter(|(.., cost)| *cost <= self.cost * (1.0 + 1e-12));
+            if let Some((data_alone, problem, cost)) = better {
                 let gained = self.cost - cost;
                 (self.x, self.data_alone, self.problem, self.cost) = (trial, data_alone, problem, cost);
                 damping = f64::max(damping * 0.1, 1e-15);

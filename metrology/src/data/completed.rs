@@ -1,14 +1,20 @@
-//! Completion of inputs that are computed from the rows.
+//! Completion of inputs that are computed from the rows, and rows at which loops do not close.
 
 use std::borrow::Cow;
 
 use abbe::Manipulator;
+use abbe::analysis::sampling::nominal_parameters;
+use abbe::identify::Observation;
+use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_study::mistake;
+use abbe_study::open_loops::open_loops;
 
 use super::column::Channel;
 use super::from_rows::{in_order, set_input, with_references};
 use super::map::Map;
-use super::rows::Data;
+use super::rows::{Data, SHOWN};
 
 impl Map {
     /// Returns whether an input is computed from the rows.
@@ -41,5 +47,51 @@ impl Data {
             set_input(&mut data.observations, &order, input, values);
         }
         Cow::Owned(data)
+    }
+
+    /// Moves the rows at which the loops of the nominal machine, or of that with the repeatable
+    /// sources of the spec, do not close to the unusable ones.
+    ///
+    /// Returns an error if no row is left.
+    pub(crate) fn closed<'d>(
+        data: Cow<'d, Self>,
+        manipulator: &Interpreter,
+        spec: &Spec,
+    ) -> Result<Cow<'d, Self>, Diagnostics> {
+        let s = nominal_parameters(manipulator.description());
+        let error = |row: &Observation| {
+            let nominal = manipulator.pose(&row.q, &s).err();
+            let error = nominal.or_else(|| manipulator.real_pose(&row.q, &s, &row.u).err());
+            error.filter(abbe::Error::is_open)
+        };
+        let open: Vec<Option<abbe::Error>> = match spec.loops.is_empty() {
+            true => Vec::new(),
+            false => data.observations.iter().map(error).collect(),
+        };
+        if open.iter().all(Option::is_none) {
+            return Ok(data);
+        }
+        let mut data = data.into_owned();
+        let rows = std::mem::take(&mut data.observations).into_iter().zip(open);
+        let mut explained = 0..SHOWN;
+        for (row, error) in rows {
+            match error {
+                Some(error) => {
+                    let further = explained.next().and_then(|_| open_loops(spec, &row.q, &s));
+                    data.leave_out(row.line, &further.unwrap_or_else(|| error.to_string()));
+                }
+                None => data.observations.push(row),
+            }
+        }
+        match data.observations.is_empty() {
+            true => {
+                let why = data.unusable.iter().map(|row| format!("{}: {}", data.place(row.line), row.reason));
+                let message =
+                    format!("the loops close at none of the rows: {}", why.take(1).collect::<String>());
+                let help = "check the units and signs of the joints in the map, and the lengths of the loops";
+                Err(mistake::with_help(&data.file, message, help))
+            }
+            false => Ok(Cow::Owned(data)),
+        }
     }
 }

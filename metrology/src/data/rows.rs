@@ -53,6 +53,9 @@ enum Wanted {
     Measured,
 }
 
+/// Number of unusable rows that are listed.
+pub(super) const SHOWN: usize = 10;
+
 impl Data {
     /// Draws configurations with replacement, for the bootstrap; see [`Configurations::resampled`].
     pub fn resampled(&self, seed: u64, number: usize) -> Self {
@@ -264,7 +267,6 @@ fn place(of_file: bool, line: u64) -> String {
 impl Summary {
     /// Formats the summary with a limited number of lines.
     pub fn lines(&self) -> Vec<String> {
-        const SHOWN: usize = 10;
         let dialect = self.dialect.map(|dialect| format!(" ({dialect})")).unwrap_or_default();
         let mut lines =
             vec![format!("{}: {}{dialect}", self.file, number::counted(self.rows, "row", "rows"))];

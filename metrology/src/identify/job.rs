@@ -128,9 +128,10 @@ impl Identify {
         let spec = with_inputs(&machine.spec, &derived);
         let nominal = Interpreter::new(spec.clone());
         let completed = |data, fitted| {
-            with_columns(&nominal, &spec, &derived, Data::complete(data, map, &nominal, &spec), fitted)
+            let data = Data::closed(Data::complete(data, map, &nominal, &spec), &nominal, &spec)?;
+            Ok(with_columns(&nominal, &spec, &derived, data, fitted))
         };
-        let data = completed(data, true);
+        let data = completed(data, true)?;
 
         let sets = competing(&spec, &derived, &self.terms, &self.harmonics);
         let input = FitInput { spec: &spec, map, data: &data, settings };
@@ -160,7 +161,7 @@ impl Identify {
         solved.notes.extend(data.note_on_time().map(|note| format!("note: {note}")));
         let cross_validated = std::mem::take(&mut solved.cross_validated);
         let cross_validation = CrossValidation::new(cross_validated, &solved, &chosen, &data, settings);
-        let test = test.map(|test| completed(test, false));
+        let test = test.map(|test| completed(test, false)).transpose()?;
         let identified = Identified {
             setup: &setup,
             solved: &solved,

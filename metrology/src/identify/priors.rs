@@ -34,6 +34,12 @@ impl Prior {
         }
     }
 
+    /// Returns smaller shares, the largest first.
+    pub(super) fn smaller(self) -> impl Iterator<Item = Self> {
+        let share = self.share();
+        SHARES.into_iter().filter(move |smaller| *smaller < share).map(Self::Share)
+    }
+
     /// Returns standard deviations about zero for the unknowns of a model.
     pub(super) fn for_model(self, model: &Model) -> Result<Vec<Option<f64>>, Failure> {
         match self {
@@ -70,8 +76,9 @@ impl Prior {
         }
         let mut best: Option<(f64, f64)> = None;
         for share in SHARES {
-            let Ok(fit) = fitted(model, Self::Share(share)) else { continue };
-            let rms = cross_validate(model, rows, &fit, folds)?.figures().rms;
+            let validated = |fit| cross_validate(model, rows, &fit, folds);
+            let Ok(found) = fitted(model, Self::Share(share)).and_then(validated) else { continue };
+            let rms = found.figures().rms;
             if best.is_none_or(|(_, least)| rms < least * (1.0 - BETTER)) {
                 best = Some((share, rms));
             }

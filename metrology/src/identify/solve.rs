@@ -77,20 +77,32 @@ pub(super) fn solve<'a>(
         let expected = model.expected(&priors)?;
         fit(model, rows, &Options { at, priors, expected, ..options.clone() })
     };
-    let cross_validated =
-        |model: &Model, fit: &Fit| cross_validate(model, rows, fit, settings.folds).map_err(diagnose);
-    let prior = settings.prior.resolve(&model, rows, settings.folds, fitted).map_err(diagnose)?;
-    let found = fitted(&model, prior);
+    let validated = |prior: Prior| {
+        let fit = fitted(&model, prior)?;
+        let cross_validated = cross_validate(&model, rows, &fit, settings.folds)?;
+        Ok((fit, cross_validated))
+    };
+    let mut prior = settings.prior.resolve(&model, rows, settings.folds, fitted).map_err(diagnose)?;
+    let mut found = validated(prior);
+    // Errors of both ends of a leg act nearly alike: what tells them apart can be a valley of the
+    // cost, too long and too curved to follow.
+    let mut smaller = prior.smaller().filter(|_| setup.description.passive().next().is_some());
+    while matches!(found, Err(Failure::NotConverged { .. }))
+        && let Some(next) = smaller.next()
+    {
+        prior = next;
+        found = validated(prior);
+    }
     let warning = match settings.loss {
-        Loss::Squares => outliers::warning(&model, data, found.as_ref().ok()),
+        Loss::Squares => outliers::warning(&model, data, found.as_ref().ok().map(|(fit, _)| fit)),
         _ => None,
     };
     if let (Err(_), Some(warning)) = (&found, &warning) {
         notes.note(warning);
     }
-    let fit = found.map_err(diagnose)?;
+    let (fit, cross_validated) = found.map_err(diagnose)?;
     let mut solved = Solved {
-        cross_validated: cross_validated(&model, &fit)?,
+        cross_validated,
         simple: simple.clone(),
         simple_x: simple_x.clone(),
         model,
@@ -100,11 +112,14 @@ pub(super) fn solve<'a>(
         profiles: None,
         notes: warning.into_iter().map(|warning| format!("note: {warning}")).collect(),
     };
-    if let (Prior::Auto, Prior::Share(share)) = (settings.prior, prior) {
+    if prior != settings.prior {
+        let why = match settings.prior {
+            Prior::Auto => "chosen by cross-validation",
+            _ => "the largest with which the iterations converge",
+        };
         solved.notes.push(format!(
-            "note: prior standard deviation of the errors: {} % of the length of the arm, chosen \
-             by cross-validation",
-            digits(100.0 * share, 2)
+            "note: prior standard deviation of the errors: {} % of the length of the arm, {why}",
+            digits(100.0 * prior.share(), 2)
         ));
     }
     Ok(solved)

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::mem::take;
 
-use abbe::Manipulator;
 use abbe::identify::Observation;
+use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -86,16 +86,21 @@ impl Checks {
 
     /// Returns the checks with the inputs derived from their rows. `manipulator` is the interpreter
     /// of the spec.
-    pub(super) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Cow<'_, Self> {
-        if !map.follows_from_rows() {
-            return Cow::Borrowed(self);
+    pub(super) fn completed(
+        &self,
+        map: &Map,
+        manipulator: &Interpreter,
+        spec: &Spec,
+    ) -> Result<Cow<'_, Self>, Diagnostics> {
+        if !map.follows_from_rows() && spec.loops.is_empty() {
+            return Ok(Cow::Borrowed(self));
         }
-        let one = |check: &Check| Check {
-            data: check.data.completed(map, manipulator, spec).into_owned(),
-            time: check.time,
+        let one = |check: &Check| {
+            let data = Data::closed(check.data.completed(map, manipulator, spec), manipulator, spec)?;
+            Ok(Check { data: data.into_owned(), time: check.time })
         };
-        let list = self.list.iter().map(one).collect();
-        Cow::Owned(Self { calendar: self.calendar, list, since: self.since.clone() })
+        let list = self.list.iter().map(one).collect::<Result<_, Diagnostics>>()?;
+        Ok(Cow::Owned(Self { calendar: self.calendar, list, since: self.since.clone() }))
     }
 
     /// Removes the checks before a date. `option` is the name of the command-line option for error
