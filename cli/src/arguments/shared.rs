@@ -8,8 +8,7 @@ use std::path::{Path, PathBuf};
 
 use abbe_report::Document;
 use abbe_report::text::{Detail, next};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 use abbe_study::analyze::parts::Change;
 use abbe_study::options::THREADS;
 use abbe_study::{Machine, RunRecord, Study, check_date};

@@ -3,10 +3,9 @@
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
-use abbe_spec::Spec;
-use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
+use abbe_spec::{Document, Spec};
 use abbe_study::options::{self, Choices};
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 
