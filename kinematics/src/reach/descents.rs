@@ -163,6 +163,7 @@ impl Lane {
         if self.fresh && !norm.is_finite() {
             return Some(Err(Error::NotFinite { quantity: Quantity::Jacobian, index: 0 }));
         }
+        // A step must reduce the norm enough.
         if norm < self.norm * (1.0 - STAGNATION) {
             let squared = self.norm * self.norm;
             self.damping = if self.damping > squared { self.damping / 10.0 } else { 0.0 };

@@ -48,6 +48,7 @@ pub(super) fn count(manipulator: &Interpreter, notes: &mut dyn Notes) -> Result<
     let is_chain = manipulator.spec().is_serial();
     let moved = (0..description.variables.len()).collect::<Vec<_>>();
     let longest = if is_chain { parts.longest() } else { description.frames.len() + 1 };
+    // Enough for the rank of a chain whose longest part has this many transforms.
     let configurations = (3 * longest).max(60);
     let samples = random_joint_samples(manipulator, &moved, configurations, SEED)
         .map(|workspace| workspace.reached())

@@ -281,10 +281,7 @@ fn read_frame_factors(
     if let (Some((own, _)), Some(span)) = (frame.own, &frame.variable_span)
         && let Some(Variable { name, .. }) = declarations.variable(own)
         && declarations.scope.names.get(name).is_some_and(|name| name.symbol == own)
-        && !factors
-            .iter()
-            .flat_map(Factor::expressions)
-            .any(|expression| depends(expression, own, declarations))
+        && !moves(&factors, own, declarations)
     {
         let message = format!("`{name}` does not move its own frame");
         let label = format!("the transform of \"{}\" does not depend on it", frame.name);
@@ -327,4 +324,9 @@ fn check_matrices(factors: &[Factor], declarations: &Declarations, document: &mu
         }
     }
     Some(())
+}
+
+/// Returns `true` if a product of factors depends on a variable.
+fn moves(factors: &[Factor], own: Symbol, declarations: &Declarations) -> bool {
+    factors.iter().flat_map(Factor::expressions).any(|expression| depends(expression, own, declarations))
 }
