@@ -1,20 +1,53 @@
 //! `abbe allocate`: factors of the error sources that keep a tolerance at least cost.
 
-use abbe_report::views;
-use abbe_study::allocate::Allocate;
-use abbe_study::{Changes, changed_text};
+use std::path::PathBuf;
 
-use crate::arguments;
+use abbe_report::views;
+use abbe_study::{Changes, allocate, changed_text};
+use clap::Args;
+
+use crate::arguments::{Running, Showing, Subject, Writing, study};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, quoted};
 
-pub(crate) fn run(arguments: &arguments::Allocate) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe allocate pps
+  abbe allocate pps --out improved.toml
+  abbe allocate arm.toml --study cell.toml --tolerance 0.3mm --loosen
+"))]
+pub(crate) struct Allocate {
+    #[command(flatten)]
+    subject: Subject,
+    /// Study file (TOML) with workspace, tolerance and costs of the factors. [default: the study
+    /// that `abbe analyze` uses]
+    #[arg(long, value_name = "FILE")]
+    study: Option<PathBuf>,
+    /// Tolerance in place of that of the study: a length such as "0.3 mm" for the position error,
+    /// an angle such as "0.5 mrad" for the orientation error; may be given for both
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    tolerance: Vec<String>,
+    /// Allow factors above 1: errors that may be larger than they are
+    #[arg(long)]
+    loosen: bool,
+    /// Write the spec with the factors, as `scale` of its sources, to this file
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    showing: Showing,
+    #[command(flatten)]
+    running: Running,
+}
+
+pub(crate) fn run(arguments: &Allocate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.as_written()?;
-    let study = arguments::study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
+    let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
     let changes = arguments.subject.changes(&machine.spec)?;
-    let mut job = Allocate::new(machine.clone(), study);
+    let mut job = allocate::Allocate::new(machine.clone(), study);
     job.change(&changes);
     job.loosen = arguments.loosen;
     let mut outputs = Outputs::new(&job, arguments.writing.force);
@@ -33,7 +66,6 @@ pub(crate) fn run(arguments: &arguments::Allocate) -> Result<Outcome, Failure> {
         next = format!("abbe analyze {path}, with the study and the tolerance of this run, checks the file");
     }
     let printed = outputs.finish(file)?;
-    let is_json = arguments.running.json;
-    let text = arguments.showing.answer(is_json, &report, views::allocation(&report), &next)?;
+    let text = arguments.showing.answer(&report, views::allocation(&report), &next)?;
     Ok(Outcome::passed(text).beside(printed))
 }

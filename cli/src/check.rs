@@ -1,13 +1,25 @@
 //! `abbe check`: checks a spec and shows its model.
 
 use abbe_report::views;
-use abbe_study::Notes;
-use abbe_study::check;
+use abbe_study::{Notes, check};
+use clap::Args;
 
-use crate::arguments::Check;
+use crate::arguments::{Showing, Subject};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, quoted};
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe check arm.toml
+  abbe check arm.toml --set payload=5kg
+", "a self-check fails: J_e differs from the exact chain"))]
+pub(crate) struct Check {
+    #[command(flatten)]
+    subject: Subject,
+    #[command(flatten)]
+    showing: Showing,
+}
 
 pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
     let job = check::Check { machine: arguments.subject.machine()? };
@@ -24,6 +36,6 @@ pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
         ),
         false => "--full for matrices, sources and laws".to_owned(),
     };
-    let shown = arguments.showing.answer(arguments.json, &report, views::check(&report), &next)?;
+    let shown = arguments.showing.answer(&report, views::check(&report), &next)?;
     Ok(Outcome::checked(shown, report.passed()))
 }

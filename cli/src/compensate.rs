@@ -1,21 +1,58 @@
 //! `abbe compensate`: joint commands that compensate the errors of the machine.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use abbe_metrology::compensate::{Compensate, Report, check_poses};
+use abbe_metrology::compensate::options::TOLERANCE;
+use abbe_metrology::compensate::{self, Report, check_poses};
 use abbe_metrology::data::{Csv, Data, Map};
 use abbe_report::{Provenance, views};
 use abbe_spec::Spec;
 use abbe_study::explore::Explore;
+use clap::{Args, ValueHint};
 
-use crate::arguments;
+use crate::arguments::{Page, Running, Showing, Subject, Writing, length};
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::number::length;
 use crate::output::{Outcome, Outputs, cannot_write};
 
-pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe compensate found.toml plan.csv --map found.map.toml --out commands.csv
+  abbe compensate found.toml plan.csv --map found.map.toml --tolerance 0.01mm --json
+", "some rows are not compensated within the tolerance"))]
+pub(crate) struct Compensate {
+    #[command(flatten)]
+    subject: Subject,
+    /// Joint commands: a CSV file with the joint and input columns of the map
+    #[arg(value_hint = ValueHint::FilePath)]
+    data: PathBuf,
+    /// Map (TOML) that describes the columns, or name of a shipped map. [default: columns named as
+    /// the variables and inputs of the spec, in its length unit and in rad]
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// Compensate the poses in the map's `[pose]` columns instead of the joint commands; the joints
+    /// of each row are the start of the iteration
+    #[arg(long, requires = "map")]
+    poses: bool,
+    /// Largest error allowed to remain at the tool point, as a length; for orientations, 1 rad
+    /// counts as 1 m
+    #[arg(long, value_name = "LENGTH", default_value = TOLERANCE, allow_hyphen_values = true)]
+    tolerance: String,
+    /// Write the corrected commands and their remaining errors to this CSV file
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    page: Page,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    showing: Showing,
+    #[command(flatten)]
+    running: Running,
+}
+
+pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.machine()?;
     let mut map = map(arguments, &machine.spec)?;
@@ -25,7 +62,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         true => Data::read_wanted(&arguments.data, &map)?,
         false => Data::read_commanded(&arguments.data, &map)?,
     };
-    let job = Compensate { machine, map, data, poses: arguments.poses, tolerance };
+    let job = compensate::Compensate { machine, map, data, poses: arguments.poses, tolerance };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let out = arguments.out.as_deref();
     let failed = |error: io::Error| cannot_write(out.unwrap_or(Path::new("-")), &error);
@@ -34,7 +71,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let mut rows = Vec::new();
     // JSON and figures need all rows at once; the file of commands is written row by row.
-    let keep = arguments.running.json || page.is_some();
+    let keep = arguments.showing.json || page.is_some();
     let report = job.for_each_row(&mut Console::default(), |row| {
         if let Some(csv) = &mut commands {
             csv.row(job.label(&row), &row.numbers(&job.map)).map_err(failed)?;
@@ -61,8 +98,8 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         None => "--out FILE writes the corrected commands, --full shows the first of them",
         Some(_) => "--full shows the first corrected commands",
     };
-    let is_json = arguments.running.json;
-    let mut text = arguments.showing.answer(is_json, &report, document(), next)?;
+    let is_json = arguments.showing.json;
+    let mut text = arguments.showing.answer(&report, document(), next)?;
     if let (Some(file), false) = (out, is_json) {
         text += &format!("\n{}: {} rows\n", file.display(), report.row_summary.rows);
     }
@@ -70,7 +107,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
 }
 
 /// Reads the given map, or makes one from the names of the spec.
-fn map(arguments: &arguments::Compensate, spec: &Spec) -> Result<Map, Failure> {
+fn map(arguments: &Compensate, spec: &Spec) -> Result<Map, Failure> {
     let Some(file) = &arguments.map else {
         return Ok(Map::from_names(&Data::heading(&arguments.data)?, spec));
     };

@@ -1,13 +1,24 @@
 //! `abbe completions`: completion scripts for shells.
 
-use clap::CommandFactory;
+use clap::{Args, Command};
+use clap_complete::Shell;
 
-use crate::arguments::{Arguments, Completions};
 use crate::failure::Failure;
 use crate::output::Outcome;
 
-pub(crate) fn run(arguments: &Completions) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe completions bash
+  abbe completions zsh
+"))]
+pub(crate) struct Completions {
+    /// Shell to generate completions for
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+pub(crate) fn run(arguments: &Completions, mut command: Command) -> Result<Outcome, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(arguments.shell, &mut Arguments::command(), "abbe", &mut script);
+    clap_complete::generate(arguments.shell, &mut command, "abbe", &mut script);
     Ok(Outcome::passed(String::from_utf8_lossy(&script).into_owned()))
 }

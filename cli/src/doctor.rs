@@ -1,19 +1,54 @@
 //! `abbe doctor`: finds the conventions of rows of joints and poses.
 
+use std::path::PathBuf;
+
 use abbe_metrology::data::Source;
-use abbe_metrology::doctor::Doctor;
+use abbe_metrology::doctor;
 use abbe_report::views;
 use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
 use abbe_study::Notes;
+use clap::{Args, ValueHint};
 
-use crate::arguments;
+use crate::arguments::{Showing, Subject, Writing};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs};
 
-pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe doctor ur5 pendant.csv
+  abbe doctor ur5 pendant.csv --within 5mm -o pendant.toml
+  abbe doctor ur5 pendant.csv -o pendant.toml --corrected corrected.toml
+", "no interpretation of the data fits"))]
+pub(crate) struct Doctor {
+    #[command(flatten)]
+    subject: Subject,
+    /// CSV file of about ten rows: one column per joint, then x, y, z and, optionally, an
+    /// orientation (three angles, a quaternion, a 3×3 matrix of nine columns, or a homogeneous
+    /// matrix of twelve or sixteen). Joint columns are found by name; otherwise they are the first
+    /// columns
+    #[arg(value_hint = ValueHint::FilePath)]
+    data: PathBuf,
+    /// Largest position residual of an interpretation that fits, as a length. [default: 2 % of the
+    /// spread of the positions]
+    #[arg(long, value_name = "LENGTH")]
+    within: Option<String>,
+    /// Write the map of the best interpretation to this file
+    #[arg(long, short, value_name = "MAP")]
+    out: Option<PathBuf>,
+    /// Write a corrected spec to this file if the best interpretation needs one: another
+    /// convention, a joint coupling, a base or a tool
+    #[arg(long, value_name = "SPEC")]
+    corrected: Option<PathBuf>,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    showing: Showing,
+}
+
+pub(crate) fn run(arguments: &Doctor) -> Result<Outcome, Failure> {
     let machine = arguments.subject.machine()?;
     let within = match &arguments.within {
         None => None,
@@ -24,7 +59,7 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
             Some(document.finish(value)?)
         }
     };
-    let job = Doctor { machine, data: Source::File(&arguments.data), within };
+    let job = doctor::Doctor { machine, data: Source::File(&arguments.data), within };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let [map, spec] = [&arguments.out, &arguments.corrected].map(Option::as_deref);
     let wanted = [outputs.wanted(map)?, outputs.wanted(spec)?];
@@ -57,7 +92,7 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
         (None, true) => "--out MAP writes the map, --full for all interpretations",
         _ => "--full for all interpretations",
     };
-    let text = arguments.showing.answer(arguments.json, &report, views::doctor(&report), next)?;
+    let text = arguments.showing.answer(&report, views::doctor(&report), next)?;
     let outcome = Outcome::checked(text, report.fits);
     Ok(match printed {
         Some(printed) => outcome.beside(printed),

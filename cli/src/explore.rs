@@ -1,20 +1,55 @@
 //! `abbe explore`: a page that evaluates the generated code of a machine, or of two.
 
 use std::borrow::Cow;
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use abbe_study::analyze::Analyze;
-use abbe_study::explore::{Explore, Report};
+use abbe_study::explore::{self, Report};
 use abbe_study::{Machine, Reads};
+use clap::{Args, ValueHint};
 
-use crate::arguments;
+use crate::arguments::{Changes, Writing, study};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, is_stdout, json, note};
 
-pub(crate) fn run(arguments: &arguments::Explore) -> Result<Outcome, Failure> {
-    let jobs: Vec<Explore<'_>> =
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe explore pps
+  abbe explore arm.toml --study cell.toml --out arm.html
+  abbe explore ur5 puma560 --out two.html           two machines side by side
+  abbe explore ur5 puma560 scara --out machines     one page for each, and an index
+"))]
+pub(crate) struct Explore {
+    /// Path of a spec file (TOML), or name of a shipped manipulator; two of them are shown side by
+    /// side, more of them become pages with an index
+    #[arg(value_name = "SPEC", required = true, num_args = 1.., value_hint = ValueHint::FilePath)]
+    specs: Vec<OsString>,
+    /// Study file (TOML), or name of a shipped study: tolerance and workspace. [default:
+    /// arm.study.toml beside arm.toml, or the study shipped with the manipulator, or 1000 joint
+    /// samples]
+    #[arg(long, value_name = "FILE")]
+    study: Option<PathBuf>,
+    /// Tolerance in place of that of the study: a length such as "0.3 mm" for the position error,
+    /// an angle such as "0.5 mrad" for the orientation error; may be given for both
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    tolerance: Vec<String>,
+    /// Write the page to this file; `-` is stdout. With more than two specs: write the pages and
+    /// index.html into this folder. [default: NAME.html, or the folder live-pages]
+    #[arg(long, short, value_name = "PATH", value_hint = ValueHint::AnyPath)]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    changes: Changes,
+    #[command(flatten)]
+    writing: Writing,
+    /// Print the data of the page, a list of one report per spec, as JSON; writes no page
+    #[arg(long, display_order = 111, conflicts_with = "out")]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Explore) -> Result<Outcome, Failure> {
+    let jobs: Vec<explore::Explore<'_>> =
         arguments.specs.iter().map(|spec| job(arguments, spec)).collect::<Result<_, _>>()?;
     let run = || -> Result<Vec<Report>, Failure> {
         let mut console = Console::default();
@@ -62,13 +97,13 @@ fn pages(
     Ok(Outcome::passed(String::new()))
 }
 
-fn job(arguments: &arguments::Explore, spec: &OsStr) -> Result<Explore<'static>, Failure> {
+fn job(arguments: &Explore, spec: &OsStr) -> Result<explore::Explore<'static>, Failure> {
     let machine = Machine::find(spec)?;
-    let study = arguments::study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
+    let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
     let changes = arguments.changes.read(&machine.spec)?;
     let mut analysis = Analyze::new(machine, study);
     // The page compares no published figures.
     analysis.change(&changes, &mut ());
     let study = arguments.study.as_ref().map(|study| study.to_string_lossy().into_owned());
-    Ok(Explore { analysis: Cow::Owned(analysis), study, residuals: None })
+    Ok(explore::Explore { analysis: Cow::Owned(analysis), study, residuals: None })
 }

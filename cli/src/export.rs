@@ -4,21 +4,97 @@ use std::path::PathBuf;
 
 use abbe_report::views;
 use abbe_study::export;
+use abbe_study::export::{Ends, FORMATS, Format, FormatMismatch, SAMPLES, SAMPLES_RANGE};
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::{Args, ValueHint};
 
-use crate::arguments;
+use crate::arguments::{Showing, Subject, Writing, whole};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, Pending};
 
-pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
-    let arguments::Export { subject, out, samples, seed, writing, showing, json: is_json, .. } = arguments;
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe export found.toml --to dh -o found.dh.csv
+  abbe export calibrated.toml --to urdf --from robot.urdf -o calibrated.urdf
+  abbe export ur5 --to ur-calibration -o calibration.yaml
+  abbe export machine3 --to isg-csv --set temperature_rise=3K -o volcomp.csv
+  abbe export machine3 --to linuxcnc --nodes 61 -o comp
+  abbe export machine3 --to linuxcnc-matrixkins -o comp
+  abbe export machine3 --to table --nodes 11 -o corrections.csv
+"))]
+pub(crate) struct Export {
+    #[command(flatten)]
+    subject: Subject,
+    /// File format to write
+    #[arg(long, value_name = "FORMAT", value_parser = formats())]
+    to: String,
+    /// URDF file of the nominal robot, for `--to urdf`: the output is a copy of it with corrected
+    /// joint origins
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    from: Option<PathBuf>,
+    /// Link of the URDF file whose frame is F_0. [default: the root link]
+    #[arg(long, value_name = "LINK", requires = "from")]
+    base: Option<String>,
+    /// Link of the URDF file whose frame is the tool point. [default: the last link, if there is
+    /// only one]
+    #[arg(long, value_name = "LINK", requires = "from")]
+    tip: Option<String>,
+    /// Number of table nodes per axis or joint. [default: 101 per axis; about 10,000 nodes in all
+    /// for `--to table`]
+    #[arg(long, value_name = "N", value_parser = whole(Format::NODES_RANGE))]
+    nodes: Option<usize>,
+    /// Write to this file instead of stdout; formats of several files write into this folder
+    #[arg(long, short, value_name = "PATH", value_hint = ValueHint::AnyPath)]
+    out: Option<PathBuf>,
+    /// Number of random configurations at which the remaining errors are evaluated
+    #[arg(long, value_name = "N", default_value_t = SAMPLES, value_parser = whole(SAMPLES_RANGE))]
+    samples: usize,
+    /// Seed of the random configurations
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    showing: Showing,
+}
+
+/// Returns a parser of the names of formats. Help lists them.
+fn formats() -> PossibleValuesParser {
+    FORMATS.map(|format| PossibleValue::new(format.name).help(format.title)).into()
+}
+
+impl Export {
+    /// Returns the output format with its options.
+    pub(crate) fn format(&self) -> Result<Format, Failure> {
+        let Self { to, from, base, tip, nodes, .. } = self;
+        let ends = Ends { base: base.clone(), tip: tip.clone() };
+        Format::choose(to, from.clone(), ends, *nodes).map_err(|unfit| {
+            let needless = |option: &str| {
+                let message = format!("`{option}` has no effect on `--to {to}`");
+                Failure::new(option, message).help(format!("leave `{option}` out"))
+            };
+            match unfit {
+                FormatMismatch::NoNominalRobot => {
+                    let failure = Failure::new("--to urdf", "the URDF file of the nominal robot is missing");
+                    failure.help("add `--from robot.urdf`")
+                }
+                FormatMismatch::NeedlessNodes => needless("--nodes"),
+                FormatMismatch::NeedlessRobot | FormatMismatch::Unknown => needless("--from"),
+            }
+        })
+    }
+}
+
+pub(crate) fn run(arguments: &Export) -> Result<Outcome, Failure> {
+    let Export { subject, out, samples, seed, writing, showing, .. } = arguments;
     let format = arguments.format()?;
     let machine = subject.machine()?;
     let job = export::Export { machine, format, samples: *samples, seed: *seed };
     let mut outputs = Outputs::new(&job, writing.force);
     let report = job.run(&mut Console::default())?;
     let paths = match (out, &report.files[..]) {
-        (None, _) if *is_json => Vec::new(),
+        (None, _) if showing.json => Vec::new(),
         (None, [_]) => vec![PathBuf::from("-")],
         (None, several) => {
             let message = format!("this format consists of {} files", several.len());
@@ -35,8 +111,8 @@ pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
         files.map(|(path, file)| outputs.file(path)?.fill(&file.text)).collect();
     let printed = outputs.finish(pending?)?;
     let next = "--full lists all differences and what the format cannot store";
-    let mut text = showing.answer(*is_json, &report, views::exported(&report), next)?;
-    if out.is_some() && !*is_json {
+    let mut text = showing.answer(&report, views::exported(&report), next)?;
+    if out.is_some() && !showing.json {
         text += &paths.iter().map(|path| format!("\nWritten to {}.\n", path.display())).collect::<String>();
     }
     Ok(Outcome::passed(text).beside(printed))

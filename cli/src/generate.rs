@@ -1,14 +1,57 @@
 //! `abbe generate`: the closed form as source code.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
-use abbe_study::generate::{Language, SourceFile, archive};
-use abbe_study::{Machine, generate};
+use abbe_study::Machine;
+use abbe_study::generate::{self, Fmi, Language, Real, SourceFile, archive};
+use clap::{Args, ValueHint};
 
-use crate::arguments::Generate;
+use crate::arguments::{Writing, named};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, Pending, note};
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe generate arm.toml --out arm.rs
+  abbe generate arm.toml --lang c --out controller
+  abbe generate arm.toml --lang c --real float --out controller
+  abbe generate arm.toml --lang c --only compensated,pose --name left_arm --out controller
+  abbe generate arm.toml --lang js --out arm.js
+  abbe generate arm.toml --lang python --out arm.py
+  abbe generate arm.toml --lang matlab --out arm.m
+  abbe generate arm.toml --lang st --out arm.st         for CODESYS, TwinCAT and other PLCs
+  abbe generate arm.toml --lang fmu --out arm.fmu       for simulators
+"))]
+pub(crate) struct Generate {
+    /// Path of a spec file (TOML), or name of a shipped manipulator
+    #[arg(value_hint = ValueHint::FilePath)]
+    spec: OsString,
+    /// Language of the generated code
+    #[arg(long, value_parser = named(generate::Generate::LANGUAGES), default_value = Language::Rust.name())]
+    lang: Language,
+    /// Floating-point type of the generated C: `float` for processors with single precision only.
+    /// [default: double]
+    #[arg(long, value_parser = named(generate::Generate::REALS))]
+    real: Option<Real>,
+    /// Write only these functions, separated by commas, and what they need; not in Rust and
+    /// functional mock-up units. [default: all]
+    #[arg(long, value_name = "FUNCTIONS")]
+    only: Option<String>,
+    /// Name in the code, such that several machines can be linked. [default: the spec's]
+    #[arg(long)]
+    name: Option<String>,
+    /// FMI version of the unit that --lang fmu writes. [default: 3]
+    #[arg(long, value_name = "VERSION", value_parser = named(generate::Generate::VERSIONS))]
+    fmi: Option<Fmi>,
+    /// Write to this file instead of stdout; C, which has a header and a source, writes into this
+    /// folder
+    #[arg(long, value_name = "PATH")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    writing: Writing,
+}
 
 pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
     let language = language(arguments)?;

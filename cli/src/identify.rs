@@ -1,22 +1,82 @@
 //! `abbe identify`: the generalized errors of a real machine, from measurements.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use abbe::VariableKind;
+use abbe::identify::Loss;
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
-use abbe_metrology::identify::{Harmonics, Identify, Report, Settings};
+use abbe_metrology::identify::options::{FOLDS, LOSSES, TERMS};
+use abbe_metrology::identify::{self, Family, Harmonics, Prior, Report, Settings};
 use abbe_report::text::{Detail, wrapped};
 use abbe_report::{Provenance, views};
 use abbe_spec::Spec;
 use abbe_study::explore::Explore;
+use clap::Args;
 
-use crate::arguments;
+use crate::arguments::{Measured, Page, Running, Showing, Subject, Writing, duration, named, whole};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, Pending, note};
 
-pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe identify ur5 data.csv --map ur5 --test test.csv
+  abbe identify ur5 data.csv --map ur5 --terms joint,load --time 60s --out found.toml
+  abbe identify ur5 data.csv --map ur5 --full
+", "--accept, or the map's `accept`, is not met"))]
+pub(crate) struct Identify {
+    #[command(flatten)]
+    subject: Subject,
+    #[command(flatten)]
+    measured: Measured,
+    /// Test data: a CSV file of measurements that is used for validation only, never for fitting or
+    /// model selection
+    #[arg(long, value_name = "FILE")]
+    test: Option<PathBuf>,
+    /// Families of additional error terms to try besides constant errors; a term is kept if it
+    /// lowers the cross-validation error
+    #[arg(long, value_parser = named(TERMS), value_delimiter = ',', value_name = "FAMILY,…")]
+    terms: Vec<&'static [Family]>,
+    /// Cycles per turn of a revolute joint at which to try periodic errors, such as gear ratios:
+    /// `--harmonics q2=1,2,101`
+    #[arg(long, value_name = "JOINT=N,…")]
+    harmonics: Vec<String>,
+    /// Time limit for the search for additional terms (`60s`, `5min`, `1h`); the result then
+    /// depends on the speed of the computer. [default: none]
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    time: Option<Duration>,
+    /// Robust loss, which down-weights outliers
+    #[arg(long, value_parser = named(LOSSES), default_value = LOSSES.name(Loss::default()))]
+    robust: Loss,
+    /// Prior standard deviation of the errors, relative to the length of the arm for offsets and in
+    /// rad for angles: a number (0 for no prior), `spec` for the spec's random sources, or `auto`
+    /// for the value chosen by cross-validation
+    #[arg(long, value_name = "SHARE", default_value_t)]
+    prior: Prior,
+    /// Acceptance limits on mean, rms, p95 and max of the position error on data that nothing was
+    /// fitted to: `mean 0.15 mm, max 0.3 mm`. Exit with status 1 if they are not met
+    #[arg(long, value_name = "LIMITS")]
+    accept: Option<String>,
+    /// Number of folds of the cross-validation
+    #[arg(long, value_name = "N", default_value_t = FOLDS.default, value_parser = whole(FOLDS.range))]
+    folds: usize,
+    /// Write the spec with the identified errors as repeatable sources to this file, and beside it,
+    /// as FILE.map.toml, the map with the identified station and targets
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    showing: Showing,
+    #[command(flatten)]
+    page: Page,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    running: Running,
+}
+
+pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let detail = arguments.showing.detail();
     let mut machine = arguments.subject.as_written()?;
@@ -43,7 +103,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
     let harmonics = harmonics(&arguments.harmonics, &machine.spec)?;
     let terms = arguments.terms.concat();
-    let mut job = Identify { machine, map, data, test, terms, harmonics, settings, accept };
+    let mut job = identify::Identify { machine, map, data, test, terms, harmonics, settings, accept };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let out = arguments.out.as_deref().map(|file| begin(file, &mut outputs)).transpose()?;
     let page = outputs.wanted(arguments.page.report.as_deref())?;
@@ -71,8 +131,8 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
         None => "--out SPEC writes the identified machine, --full lists every error",
         Some(_) => "abbe compensate with both files corrects commands, --full lists every error",
     };
-    let is_json = arguments.running.json;
-    let mut text = arguments.showing.answer(is_json, &report, document(), next)?;
+    let is_json = arguments.showing.json;
+    let mut text = arguments.showing.answer(&report, document(), next)?;
     match is_json {
         true => report.notes.iter().for_each(|line| note(line)),
         false => text.extend(written.map(|written| format!("\n{written}"))),
@@ -139,7 +199,11 @@ impl IdentifiedFiles {
 }
 
 /// Builds the identified spec and map.
-fn identified_files(file: &Path, job: &Identify, report: &Report) -> Result<IdentifiedFiles, Failure> {
+fn identified_files(
+    file: &Path,
+    job: &identify::Identify,
+    report: &Report,
+) -> Result<IdentifiedFiles, Failure> {
     let machine = &job.machine;
     let spec =
         report.found.identified_spec(&machine.spec, &machine.text_for(file)?, &file.display().to_string())?;

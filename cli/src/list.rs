@@ -2,11 +2,20 @@
 
 use abbe_report::text;
 use abbe_study::list;
+use clap::Args;
 
-use crate::arguments::List;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, json};
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!("  abbe list
+"))]
+pub(crate) struct List {
+    /// Print the list as JSON
+    #[arg(long)]
+    json: bool,
+}
 
 pub(crate) fn run(arguments: &List) -> Result<Outcome, Failure> {
     let shipped = list::List.run(&mut Console::default())?;

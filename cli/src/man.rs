@@ -1,17 +1,29 @@
 //! `abbe man`: manual pages, one for `abbe` and one for each command.
 
 use std::io;
+use std::path::PathBuf;
 
-use clap::CommandFactory;
-use clap_mangen::Man;
+use clap::{Args, Command};
 
-use crate::arguments::{self, Arguments};
+use crate::arguments::Writing;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write, note};
 
-pub(crate) fn run(arguments: &arguments::Man) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe man --out man1
+"))]
+pub(crate) struct Man {
+    /// Write the manual pages into this folder: abbe.1 and one page per command
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    writing: Writing,
+}
+
+pub(crate) fn run(arguments: &Man, command: Command) -> Result<Outcome, Failure> {
     let folder = &arguments.out;
-    let pages = pages().map_err(|error| cannot_write(folder, &error))?;
+    let pages = pages(command).map_err(|error| cannot_write(folder, &error))?;
     let mut outputs = Outputs::new(&(), arguments.writing.force);
     outputs.folder(folder)?;
     let files = pages.iter().map(|(name, text)| outputs.file(&folder.join(name))?.fill(text));
@@ -22,12 +34,12 @@ pub(crate) fn run(arguments: &arguments::Man) -> Result<Outcome, Failure> {
 }
 
 /// Returns the name and the text of each page.
-fn pages() -> io::Result<Vec<(String, String)>> {
-    let mut command = Arguments::command().disable_help_subcommand(true);
+fn pages(command: Command) -> io::Result<Vec<(String, String)>> {
+    let mut command = command.disable_help_subcommand(true);
     command.build();
     let commands = command.get_subcommands().cloned();
     let page = |command| {
-        let (page, mut text) = (Man::new(command), Vec::new());
+        let (page, mut text) = (clap_mangen::Man::new(command), Vec::new());
         page.render(&mut text)?;
         let text = String::from_utf8_lossy(&text);
         // The text after the options has headings of its own.

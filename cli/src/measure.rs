@@ -1,18 +1,59 @@
 //! `abbe measure`: evaluates measurements of a machine.
 
+use std::path::PathBuf;
+
 use abbe_metrology::data::{Data, Map};
-use abbe_metrology::measure::{Measure, Report};
+use abbe_metrology::measure::{self, Report};
 use abbe_report::{Provenance, views};
 use abbe_spec::Spec;
 use abbe_study::explore::Explore;
+use clap::{Args, ValueEnum};
 
-use crate::arguments;
+use crate::arguments::{Dated, Measured, Running, Showing, Subject, Writing};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::identify::accept;
 use crate::output::{Outcome, Outputs};
 
-pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe measure ur5 data.csv --map ur5
+  abbe measure ur5 data.csv --map ur5 --accept \"mean 0.5 mm\" --out measured
+", "--accept, or the map's `accept`, is not met"))]
+pub(crate) struct Measure {
+    #[command(flatten)]
+    subject: Subject,
+    #[command(flatten)]
+    measured: Measured,
+    /// Estimate the station of the instrument from the data instead of taking it from the map:
+    /// `new` if the instrument was moved
+    #[arg(long, value_enum, value_name = "WHICH")]
+    station: Option<Station>,
+    /// Acceptance limits on mean, rms, p95 and max of the position error that remains after the
+    /// sources of the spec: `mean 0.15 mm, max 0.3 mm`. Exit with status 1 if they are not met
+    #[arg(long, value_name = "LIMITS")]
+    accept: Option<String>,
+    /// Write report.html, and errors.csv with ΔX, prediction and residual of every row, into this
+    /// folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    dated: Dated,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    showing: Showing,
+    #[command(flatten)]
+    running: Running,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Station {
+    /// The instrument stands at a station that the map does not describe
+    New,
+}
+
+pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.measured.map, &machine.spec)?;
@@ -20,7 +61,7 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     arguments.dated.date(&mut map.record);
     let data = Data::read(&arguments.measured.data, &map)?;
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
-    let job = Measure { machine, map, data, accept };
+    let job = measure::Measure { machine, map, data, accept };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let files = match &arguments.out {
         None => None,
@@ -42,12 +83,7 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     outcome(arguments, &spec, &map, &report)
 }
 
-fn outcome(
-    arguments: &arguments::Measure,
-    spec: &Spec,
-    map: &Map,
-    report: &Report,
-) -> Result<Outcome, Failure> {
+fn outcome(arguments: &Measure, spec: &Spec, map: &Map, report: &Report) -> Result<Outcome, Failure> {
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
     let next = match (report.explained.repeatable, &arguments.out) {
         (0, _) => "abbe identify finds the errors of this machine; --full for all figures of ISO 9283",
@@ -55,6 +91,6 @@ fn outcome(
         _ => "--full for all figures of ISO 9283",
     };
     let document = views::measurement(spec, map, report);
-    let text = arguments.showing.answer(arguments.running.json, report, document, next)?;
+    let text = arguments.showing.answer(report, document, next)?;
     Ok(Outcome::checked(text, accepted))
 }

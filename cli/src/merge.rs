@@ -3,21 +3,50 @@
 use std::borrow::Cow;
 use std::path::PathBuf;
 
-use abbe_study::analyze::parts::{Merge, Part};
+use abbe_study::analyze::parts::{self, Part};
 use abbe_study::explore::Explore;
+use clap::{Args, ValueHint};
 
 use crate::analyze::{self, Files, VaryingColumns};
-use crate::arguments;
+use crate::arguments::{Dated, Running, Showing, Writing};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, note};
 
-pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe merge 1.part 2.part
+  abbe merge 1.part 2.part --json
+  abbe merge 1.part 2.part --out merged
+", "with --check: a tolerance of the study is not met"))]
+pub(crate) struct Merge {
+    /// Parts of one analysis, complete and in any order: the files written by `abbe analyze SPEC
+    /// --shard I/N --out FILE`
+    #[arg(required = true, value_hint = ValueHint::FilePath)]
+    parts: Vec<PathBuf>,
+    /// Exit with status 1 if a tolerance of the study is not met
+    #[arg(long)]
+    check: bool,
+    /// Write the files of `abbe analyze --out` into this folder, except configurations.csv: parts
+    /// do not store single configurations
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    dated: Dated,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    showing: Showing,
+    #[command(flatten)]
+    running: Running,
+}
+
+pub(crate) fn run(arguments: &Merge) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let mut console = Console::default();
     let read = |path: &PathBuf| Ok::<_, Failure>((path.display().to_string(), Part::read(path)?));
     let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    let merge = Merge::new(parts, &mut console)?;
+    let merge = parts::Merge::new(parts, &mut console)?;
     let begun = match &arguments.out {
         Some(folder) => {
             let job = merge.job();
@@ -46,11 +75,5 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
         analyze::write(folder, files, outputs, &report, live.as_ref())?;
         note("note: configurations.csv is not written: parts do not contain single configurations");
     }
-    analyze::outcome(
-        &report,
-        arguments.running.json,
-        arguments.check,
-        &arguments.showing,
-        "--full for every table",
-    )
+    analyze::outcome(&report, arguments.check, &arguments.showing, "--full for every table")
 }

@@ -1,17 +1,59 @@
 //! `abbe monitor`: control charts of repeated checks of a machine.
 
+use std::path::PathBuf;
+
 use abbe_metrology::data::Map;
-use abbe_metrology::monitor::{Checks, Monitor, Settings};
+use abbe_metrology::monitor::options::FALSE_ALARM;
+use abbe_metrology::monitor::{self, Checks, Settings};
 use abbe_report::{Provenance, views};
 use abbe_study::explore::Explore;
+use clap::{Args, ValueHint};
 
-use crate::arguments;
+use crate::arguments::{Page, Running, Showing, Subject, Writing, length, whole};
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::number::length;
 use crate::output::{Outcome, Outputs};
 
-pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe monitor ur5 monday.csv tuesday.csv wednesday.csv --map ur5
+  abbe monitor ur5 monday.csv tuesday.csv --map ur5 --tolerance 0.2mm --check
+", "with --check: there is an alarm"))]
+pub(crate) struct Monitor {
+    #[command(flatten)]
+    subject: Subject,
+    /// Checks in chronological order: CSV files with the same few configurations each, or one file
+    /// with a date column
+    #[arg(required = true, value_hint = ValueHint::FilePath)]
+    data: Vec<PathBuf>,
+    /// Map (TOML) that describes the columns, or name of a shipped map
+    #[arg(long, value_name = "FILE")]
+    map: PathBuf,
+    /// Allowed displacement of the tool point since the first check, as a length; the report
+    /// predicts the date on which it is reached
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    tolerance: Option<String>,
+    /// First check to use, by its date: ignore the checks before the machine was serviced or zeroed
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    since: Option<String>,
+    /// False-alarm rate: at most one false alarm in this number of checks on average, over all
+    /// charts together
+    #[arg(long, value_name = "CHECKS", default_value_t = FALSE_ALARM.default, value_parser = whole(FALSE_ALARM.range))]
+    false_alarm: usize,
+    /// Exit with status 1 if there is an alarm
+    #[arg(long)]
+    check: bool,
+    #[command(flatten)]
+    page: Page,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    showing: Showing,
+    #[command(flatten)]
+    running: Running,
+}
+
+pub(crate) fn run(arguments: &Monitor) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.machine()?;
     let mut map = Map::find(&arguments.map, &machine.spec)?;
@@ -24,7 +66,7 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
         arguments.tolerance.as_ref().map(|text| length("--tolerance", text, &machine.spec)).transpose()?;
     let settings =
         Settings { checks_per_false_alarm: arguments.false_alarm as f64, tolerance, ..Settings::default() };
-    let job = Monitor { machine, map, checks, settings };
+    let job = monitor::Monitor { machine, map, checks, settings };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let report = job.run(&mut Console::default())?;
@@ -42,6 +84,6 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
         None => "--report FILE for a page with the charts, --full for all charts",
         Some(_) => "--full for all charts",
     };
-    let text = arguments.showing.answer(arguments.running.json, &report, document(), next)?;
+    let text = arguments.showing.answer(&report, document(), next)?;
     Ok(Outcome::checked(text, passed).beside(printed))
 }

@@ -2,9 +2,31 @@
 
 use std::path::PathBuf;
 
-use crate::arguments::New;
+use abbe_study::template::Template;
+use clap::{Args, ValueHint};
+
+use crate::arguments::{Writing, named};
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, is_stdout, quoted};
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe new my_arm
+  abbe new mill --template five-axis-mill
+  abbe new hall --template gantry --out hall-1.toml
+"))]
+pub(crate) struct New {
+    /// Name of the manipulator, in lower case
+    name: String,
+    /// Kind of machine
+    #[arg(long, value_name = "TEMPLATE", value_parser = named(Template::CHOICES), default_value = "six-axis")]
+    template: Template,
+    /// Write the spec to this file. [default: NAME.toml]
+    #[arg(long, short, value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    writing: Writing,
+}
 
 pub(crate) fn run(arguments: &New) -> Result<Outcome, Failure> {
     let New { name, template, out, writing } = arguments;

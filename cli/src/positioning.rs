@@ -1,16 +1,47 @@
 //! `abbe positioning`: evaluates runs of an axis by ISO 230-2, or of body diagonals by ISO 230-6.
 
+use std::path::PathBuf;
+
 use abbe_metrology::positioning;
 use abbe_report::views;
+use clap::{Args, ValueHint};
 
-use crate::arguments::Positioning;
+use crate::arguments::{Showing, Writing};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs};
 
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe positioning x-axis.csv --reading-uncertainty 0.1um --scale-uncertainty 1um/m
+  abbe positioning x-axis.csv --out exx.csv
+  abbe positioning diagonals.csv
+"))]
+pub(crate) struct Positioning {
+    /// Runs: a CSV file with columns `position (mm)`, `direction` (`+` or `-`) and `deviation
+    /// (um)`, or `actual (mm)`; or with one column for each pass, `1+ (um)`, `1- (um)`, …
+    ///
+    /// A column `diagonal` names the body diagonal of each row, and the runs are evaluated by
+    /// ISO 230-6.
+    #[arg(value_hint = ValueHint::FilePath)]
+    data: PathBuf,
+    /// Standard uncertainty of one reading of the instrument: `0.1um`, `0.05arcsec`
+    #[arg(long, value_name = "VALUE")]
+    reading_uncertainty: Option<String>,
+    /// Standard uncertainty of the scale of the instrument, with that of the temperature: `1um/m`
+    #[arg(long, value_name = "VALUE")]
+    scale_uncertainty: Option<String>,
+    /// Write the mean deviations at the positions to this CSV file, for a table of a spec
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    showing: Showing,
+}
+
 pub(crate) fn run(arguments: &Positioning) -> Result<Outcome, Failure> {
-    let Positioning { data, reading_uncertainty, scale_uncertainty, out, writing, showing, json: is_json } =
-        arguments;
+    let Positioning { data, reading_uncertainty, scale_uncertainty, out, writing, showing } = arguments;
     let job = positioning::Positioning {
         data: data.into(),
         reading: reading_uncertainty.clone(),
@@ -23,7 +54,7 @@ pub(crate) fn run(arguments: &Positioning) -> Result<Outcome, Failure> {
         Some(_) => "--full for every position",
         None => "--out FILE writes the mean deviations for a table of a spec, --full shows every position",
     };
-    let text = showing.answer(*is_json, &report, views::positioning(&report), next)?;
+    let text = showing.answer(&report, views::positioning(&report), next)?;
     let Some(file) = file else { return Ok(Outcome::passed(text)) };
     let Some(table) = report.table() else {
         let message = "the deviations of several diagonals are not a table of one axis";

@@ -1,8 +1,22 @@
 //! `abbe schema`: the JSON Schema of an input file.
 
-use crate::arguments::Schema;
+use abbe_metrology::schema::FileKind;
+use clap::Args;
+
+use crate::arguments::named;
 use crate::failure::Failure;
 use crate::output::Outcome;
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe schema spec
+  abbe schema study
+"))]
+pub(crate) struct Schema {
+    /// Kind of input file
+    #[arg(value_parser = named(FileKind::CHOICES))]
+    file: FileKind,
+}
 
 pub(crate) fn run(arguments: &Schema) -> Result<Outcome, Failure> {
     let schema = serde_json::to_string_pretty(&arguments.file.schema());

@@ -1,18 +1,62 @@
 //! `abbe simulate`: simulates measurements of a machine with the errors of its spec.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use abbe_metrology::data::{Csv, Data, Map};
-use abbe_metrology::simulate::{Places, Simulate};
+use abbe_metrology::simulate::options::{OUTLIERS, SAMPLES};
+use abbe_metrology::simulate::{self, Places};
+use clap::{Args, ValueHint};
 
-use crate::arguments;
+use crate::arguments::{Running, Subject, Writing, length, share, whole};
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::number::length;
 use crate::output::{Outcome, Outputs, cannot_write, json};
 
-pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe simulate ur5 plan.csv --map ur5 --out data.csv
+  abbe simulate ur5 --map ur5 --samples 200 --noise 0.02mm --seed 1 --out test.csv
+"))]
+pub(crate) struct Simulate {
+    #[command(flatten)]
+    subject: Subject,
+    /// Configurations: a CSV file with the joint and input columns of the map. [default: random
+    /// configurations within the limits]
+    #[arg(value_hint = ValueHint::FilePath)]
+    data: Option<PathBuf>,
+    /// Map (TOML) that describes the columns to write, or name of a shipped map
+    #[arg(long, value_name = "FILE")]
+    map: PathBuf,
+    /// Number of random configurations
+    #[arg(long, value_name = "N", default_value_t = SAMPLES.default, conflicts_with = "data", value_parser = whole(SAMPLES.range))]
+    samples: usize,
+    /// Standard deviation of the noise of each coordinate: `0.04mm`. [default: the uncertainty in
+    /// the map]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    noise: Option<String>,
+    /// Fraction of the rows that are outliers, from 0 to 1
+    #[arg(long, value_name = "SHARE", default_value_t = OUTLIERS.default, value_parser = share)]
+    outliers: f64,
+    /// Also draw the random sources of the spec, anew in every row, and its tolerances, once
+    #[arg(long)]
+    random: bool,
+    /// Seed of the configurations, noise, outliers and random sources
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    /// Write to this file instead of stdout
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    running: Running,
+    /// Print the report as JSON
+    #[arg(long, display_order = 111)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Simulate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.map, &machine.spec)?;
@@ -21,7 +65,7 @@ pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
         Some(file) => Places::Rows(Data::read_commanded(file, &map)?),
         None => Places::Samples(arguments.samples),
     };
-    let job = Simulate {
+    let job = simulate::Simulate {
         machine,
         map,
         at,
@@ -32,7 +76,7 @@ pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
     };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let mut watch = Console::default();
-    if arguments.running.json {
+    if arguments.json {
         let out = outputs.wanted(arguments.out.as_deref())?;
         let report = job.run(&mut watch)?;
         let printed = outputs.finish(out.map(|file| file.fill(&report.table.csv())).transpose()?)?;

@@ -5,8 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::{Diagnostic, Diagnostics, Spec};
 
 use crate::print;
 

@@ -17,8 +17,6 @@ pub struct FileFormat {
     pub name: &'static str,
     /// Description for help and documents.
     pub title: &'static str,
-    /// Other programs' files of this format are imported, too.
-    pub is_read: bool,
     /// Argument of its writer beside the machine.
     pub needs: Needs,
 }
@@ -37,23 +35,22 @@ pub enum Needs {
 /// All formats.
 pub const FORMATS: [FileFormat; 8] = {
     use Needs::{Nodes, NominalRobot, Nothing};
-    const fn format(name: &'static str, title: &'static str, is_read: bool, needs: Needs) -> FileFormat {
-        FileFormat { name, title, is_read, needs }
+    const fn format(name: &'static str, title: &'static str, needs: Needs) -> FileFormat {
+        FileFormat { name, title, needs }
     }
     [
-        format("dh", "table of Denavit-Hartenberg numbers, CSV", true, Nothing),
+        format("dh", "table of Denavit-Hartenberg numbers, CSV", Nothing),
         format(
             "urdf",
             "copy of the URDF file of the nominal robot, with corrected joint origins",
-            true,
             NominalRobot,
         ),
-        format("ur-calibration", "calibration of an arm of Universal Robots, YAML", false, Nothing),
-        format("isg-csv", "volumetric compensation of TwinCAT CNC and the ISG kernel, CSV", false, Nodes),
-        format("kinematics-comp", "rows and tables of HEIDENHAIN's KinematicsComp", false, Nodes),
-        format("linuxcnc", "compensation files of LinuxCNC, one for each axis", false, Nodes),
-        format("linuxcnc-matrixkins", "the same files, and the matrix of `matrixkins`", false, Nodes),
-        format("table", "corrections of the joints on a grid, CSV", false, Nodes),
+        format("ur-calibration", "calibration of an arm of Universal Robots, YAML", Nothing),
+        format("isg-csv", "volumetric compensation of TwinCAT CNC and the ISG kernel, CSV", Nodes),
+        format("kinematics-comp", "rows and tables of HEIDENHAIN's KinematicsComp", Nodes),
+        format("linuxcnc", "compensation files of LinuxCNC, one for each axis", Nodes),
+        format("linuxcnc-matrixkins", "the same files, and the matrix of `matrixkins`", Nodes),
+        format("table", "corrections of the joints on a grid, CSV", Nodes),
     ]
 };
 

@@ -9,10 +9,9 @@ use abbe_spec::option::TO_URDF;
 use std::fmt::Write;
 
 use abbe::{Manipulator, Pose};
-use abbe_spec::DhConvention;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::mistake;
 use abbe_spec::number::digits;
+use abbe_spec::{DhConvention, Diagnostics};
 
 use crate::dh::DhTable;
 use crate::export::origins::{Joint, origins};

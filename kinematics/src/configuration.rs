@@ -27,22 +27,6 @@ impl Configuration {
         }
     }
 
-    /// Returns a label such as `d1 = 1128, q4 = 0.5, x = 250`: the variables, and the parameters
-    /// and inputs that are not nominal.
-    pub fn label(&self, description: &Description) -> String {
-        let variables = description.variables.iter().zip(&self.q);
-        let variables = variables.map(|(variable, value)| format!("{} = {value}", variable.name));
-        let parameters = description.parameters.iter().zip(&self.s);
-        let parameters = parameters
-            .filter(|(parameter, value)| parameter.nominal != **value)
-            .map(|(parameter, value)| format!("{} = {value}", parameter.name));
-        let inputs = description.inputs.iter().zip(&self.u);
-        let inputs = inputs
-            .filter(|(input, value)| input.nominal != **value)
-            .map(|(input, value)| format!("{} = {value}", input.name));
-        variables.chain(parameters).chain(inputs).collect::<Vec<_>>().join(", ")
-    }
-
     /// Copies another configuration of the same manipulator.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.q.copy_from_slice(&other.q);

@@ -83,7 +83,7 @@ fn table(header: &str, tables: &[&Keys], rules: &[Rule]) -> Json {
         let unit = if key.unit == "-" { String::new() } else { format!("\n\nUnit: {}", key.unit) };
         schema["description"] = json!(format!("{}.{unit}\n\nDefault: {}", key.what, key.default));
         properties.insert(key.name.to_owned(), schema);
-        if key.is_required() {
+        if key.default == "required" {
             required.push(key.name);
         }
     }

@@ -7,11 +7,9 @@ use std::time::Duration;
 
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::Map;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
+use abbe_spec::{Diagnostics, Document, Spec};
 use abbe_study::Study;
 use abbe_study::options::Choices;
 use pyo3::exceptions::PyValueError;

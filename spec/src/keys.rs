@@ -101,12 +101,7 @@ impl Keys {
     }
 }
 
-impl Key {
-    /// Returns `true` if every table with this key must have it.
-    pub fn is_required(&self) -> bool {
-        self.default == "required"
-    }
-}
+impl Key {}
 
 impl Value {
     /// Returns the kind of value as users read it.

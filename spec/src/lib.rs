@@ -44,6 +44,8 @@ mod kind;
 mod manipulator;
 mod not_toml;
 
+pub use diagnostic::{Diagnostic, Diagnostics};
+pub use document::Document;
 pub use manipulator::{
     Axes, Beam, Cause, ChainNumber, Closure, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
     DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, Loop, MAGNITUDE, Magnitude, Matrix,

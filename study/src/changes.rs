@@ -1,12 +1,11 @@
 //! Changes to a spec for one run: values of parameters and inputs, sources switched on and off or
 //! scaled.
 
-use abbe_spec::Spec;
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
-use abbe_spec::document::Document;
 use abbe_spec::expr::{Dimension, Symbol};
 use abbe_spec::option::{DISABLE, ENABLE, NamedOption, Q, SCALE, SCALE_GEAR, SET, SET_X};
 use abbe_spec::value::{find_name, parse_value};
+use abbe_spec::{Document, Spec};
 
 use crate::number;
 

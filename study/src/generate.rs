@@ -4,10 +4,8 @@ use abbe_spec::option::{NAME, ONLY, REAL_FLOAT};
 use std::borrow::Cow;
 
 pub use abbe_codegen::print::{Fmi, Language, Real, SourceFile};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Document;
 use abbe_spec::value::find_name;
-use abbe_spec::{Spec, check_name};
+use abbe_spec::{Diagnostics, Document, Spec, check_name};
 
 pub use crate::archive::archive;
 use crate::machine::Machine;

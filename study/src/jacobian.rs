@@ -8,10 +8,9 @@ use abbe::{Class, Component, Description, Error, Manipulator, Pose, Quantity, Va
 use abbe_interpreter::Interpreter;
 use abbe_spec::degrees::check_angle_text;
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
-use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
-use abbe_spec::{Spec, Variable};
+use abbe_spec::{Document, Spec, Variable};
 use serde::Serialize;
 
 use crate::finite::finite;

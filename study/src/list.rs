@@ -2,8 +2,7 @@
 
 use abbe::VariableKind;
 use abbe_manipulators::{MECHANISMS, SHIPPED};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 use serde::Serialize;
 
 use crate::machine::Machine;

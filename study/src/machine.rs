@@ -9,11 +9,9 @@ use abbe::analysis::{Sweepable, Unevaluated, Workspace};
 use abbe::{Class, Description, Distribution};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{MECHANISMS, SHIPPED, Shipped};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Document;
 use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::option::{NamedOption, option};
-use abbe_spec::{Factor, Magnitude, Source, Spec};
+use abbe_spec::{Diagnostics, Document, Factor, Magnitude, Source, Spec};
 
 use crate::calibration::{calibration_errors, has_magnitude, is_measured, tool_in_last_frame};
 use crate::changes::Changes;

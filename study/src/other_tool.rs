@@ -1,8 +1,7 @@
 //! Points of the tool at which an identified machine was not measured, and the uncertainty there.
 
 use abbe::Manipulator;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 use serde::Serialize;
 
 use crate::calibration::{CalibrationErrors, PredictedErrors, Prediction, is_measured, tool_in_last_frame};

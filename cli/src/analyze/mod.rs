@@ -8,23 +8,89 @@ mod files;
 
 use std::borrow::Cow;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use abbe::analysis::Row;
 use abbe_study::Reads;
+use abbe_study::analyze::options::DRAWS;
 use abbe_study::analyze::parts::{AnalysisRequest, Part, Shard};
-use abbe_study::analyze::{Analyze, Report, Verdict};
+use abbe_study::analyze::{self, Report, Verdict};
 use abbe_study::explore::{self, Explore};
 use abbe_study::jacobian::read_joint_variables;
+use clap::Args;
 
-use crate::arguments::{self, Showing};
+use crate::arguments::{Dated, Running, Showing, Subject, Writing, study, whole};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write, note};
 
 pub(crate) use files::{Files, VaryingColumns};
 
-pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe analyze pps
+  abbe analyze arm.toml --set payload=2kg --monte-carlo 10000
+  abbe analyze arm.toml --study cell.toml --check
+  abbe analyze arm.toml --out arm       with figures: arm/report.html needs no network
+  abbe analyze arm.toml --q 300,30deg,-45deg    at one configuration
+  abbe analyze arm.toml --shard 1/2 --out 1.part
+  abbe analyze arm.toml --shard 2/2 --out 2.part    on another machine: see `abbe merge`
+", "with --check: a tolerance of the study is not met"))]
+pub(crate) struct Analyze {
+    #[command(flatten)]
+    subject: Subject,
+    /// Study file (TOML), or name of a shipped study: workspace, tolerance, published figures.
+    /// [default: arm.study.toml beside arm.toml, or the study shipped with the manipulator, or 1000
+    /// joint samples]
+    #[arg(long, value_name = "FILE")]
+    study: Option<PathBuf>,
+    /// Tolerance in place of that of the study: a length such as "0.3 mm" for the position error,
+    /// an angle such as "0.5 mrad" for the orientation error; may be given for both
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    tolerance: Vec<String>,
+    /// Analyze one configuration instead of the study's workspace: joint variables in the order of
+    /// the spec, as for `abbe jacobian`, with nominal inputs or those of --set. Published figures
+    /// are not compared
+    #[arg(long, value_name = "V,V,…", allow_hyphen_values = true, conflicts_with = "shard")]
+    q: Option<String>,
+    /// Number of Monte Carlo draws of all error sources, at the worst configuration and at home,
+    /// through the exact chain with finite rotations. [default: no draws]
+    #[arg(long, value_name = "N", value_parser = whole(DRAWS))]
+    monte_carlo: Option<usize>,
+    /// Seed of the Monte Carlo draws and of the study's random samples. [default: 0 for the draws,
+    /// the study's seed for its samples]
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+    /// Interpret the spec of a shipped manipulator instead of running its generated code: the same
+    /// results, slower
+    #[arg(long)]
+    interpret: bool,
+    /// Exit with status 1 if a tolerance of the study is not met
+    #[arg(long)]
+    check: bool,
+    /// Write report.html, its figures as SVG, configurations.csv, sources.csv, unreachable.csv and,
+    /// with --monte-carlo, monte_carlo.csv into this folder. With --shard: write the part to this
+    /// file
+    #[arg(long, value_name = "PATH")]
+    out: Option<PathBuf>,
+    /// Sweep part I of N of the workspace (I from 1 to N) and write a part file for `abbe merge`
+    #[arg(long, value_name = "I/N", requires = "out", conflicts_with_all = ["json", "check", "date"])]
+    shard: Option<Shard>,
+    /// Do not collect data for figures in this part, which is faster; the merged text and --json
+    /// stay complete
+    #[arg(long, requires = "shard")]
+    no_figures: bool,
+    #[command(flatten)]
+    dated: Dated,
+    #[command(flatten)]
+    writing: Writing,
+    #[command(flatten)]
+    showing: Showing,
+    #[command(flatten)]
+    running: Running,
+}
+
+pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let mut console = Console::default();
     if let (Some(shard), Some(file)) = (arguments.shard, &arguments.out) {
@@ -58,7 +124,7 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
         None => "--full for every table, --out DIR for a page with figures",
         Some(_) => "--full for every table",
     };
-    outcome(&report, arguments.running.json, arguments.check, &arguments.showing, next)
+    outcome(&report, arguments.check, &arguments.showing, next)
 }
 
 /// Writes the files of a report into its folder. `live` is the data of its live panel, if
@@ -91,12 +157,11 @@ pub(crate) fn write(
 /// `check` needs a study with a tolerance.
 pub(crate) fn outcome(
     report: &Report,
-    json: bool,
     check: bool,
     showing: &Showing,
     next: &str,
 ) -> Result<Outcome, Failure> {
-    let text = showing.answer(json, report, abbe_report::budget(report), next)?;
+    let text = showing.answer(report, abbe_report::budget(report), next)?;
     match (check, report.verdict()) {
         (true, None) => Err(Failure::new("--check", "the study has no tolerance")
             .help("add one: --tolerance \"0.5 mm\", or tolerance = \"0.5 mm\" in its [study]")),
@@ -107,7 +172,7 @@ pub(crate) fn outcome(
 
 /// Sweeps one part of the workspace and writes its part file.
 fn part(
-    arguments: &arguments::Analyze,
+    arguments: &Analyze,
     (shard, file): (Shard, &Path),
     console: &mut Console,
 ) -> Result<Outcome, Failure> {
@@ -135,11 +200,11 @@ fn part(
     Ok(Outcome::passed(text).beside(printed))
 }
 
-fn job(arguments: &arguments::Analyze, console: &mut Console) -> Result<Analyze, Failure> {
+fn job(arguments: &Analyze, console: &mut Console) -> Result<analyze::Analyze, Failure> {
     let machine = arguments.subject.as_written()?;
-    let study = arguments::study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
+    let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
     let changes = arguments.subject.changes(&machine.spec)?;
-    let mut job = Analyze::new(machine, study);
+    let mut job = analyze::Analyze::new(machine, study);
     job.change(&changes, console);
     if let Some(q) = &arguments.q {
         let q = read_joint_variables(q, &job.machine().spec)?;

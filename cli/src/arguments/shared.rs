@@ -8,19 +8,17 @@ use std::path::{Path, PathBuf};
 
 use abbe_report::Document;
 use abbe_report::text::{Detail, next};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 use abbe_study::analyze::parts::Change;
 use abbe_study::options::THREADS;
 use abbe_study::{Machine, RunRecord, Study, check_date};
 use clap::{Args, ValueHint};
 use serde::Serialize;
 
-use crate::signs::has_plain_signs;
-
 use super::values::whole;
 use crate::failure::Failure;
 use crate::output::{json, note};
+use crate::signs::has_plain_signs;
 
 // Machine to work on.
 #[derive(Args, Debug)]
@@ -132,12 +130,15 @@ pub(crate) struct Writing {
     pub(crate) force: bool,
 }
 
-// How much is printed.
+// How much is printed, and in which form.
 #[derive(Args, Debug)]
 pub(crate) struct Showing {
     /// Print every table and sentence, not only the answer
     #[arg(long, display_order = 109, conflicts_with = "json")]
     full: bool,
+    /// Print the report as JSON
+    #[arg(long, display_order = 111)]
+    pub(crate) json: bool,
 }
 
 impl Showing {
@@ -156,12 +157,11 @@ impl Showing {
     /// what to do next.
     pub(crate) fn answer<R: Serialize>(
         &self,
-        is_json: bool,
         report: &R,
         document: Document,
         next: &str,
     ) -> Result<String, Failure> {
-        match is_json {
+        match self.json {
             true => json(&document.worded(report)),
             false => Ok(self.text(document) + &self.next(next)),
         }
@@ -176,15 +176,12 @@ impl Showing {
     }
 }
 
-// Execution of a job, and the form of its report.
+// Execution of a job.
 #[derive(Args, Debug)]
 pub(crate) struct Running {
     /// Number of threads; the results do not depend on it. [default: all cores]
     #[arg(long, value_name = "N", display_order = 110, value_parser = whole(THREADS))]
     threads: Option<usize>,
-    /// Print the report as JSON
-    #[arg(long, display_order = 111)]
-    pub(crate) json: bool,
 }
 
 impl Running {

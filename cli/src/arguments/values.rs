@@ -3,17 +3,22 @@
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::parse_value;
+use abbe_spec::{Document, Spec};
 use abbe_study::options::{self, Choices};
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 
+use crate::failure::Failure;
+
 /// Returns a parser of whole numbers in a range.
-pub(super) fn whole(range: RangeInclusive<usize>) -> RangedI64ValueParser<usize> {
+pub(crate) fn whole(range: RangeInclusive<usize>) -> RangedI64ValueParser<usize> {
     let (least, most) = range.into_inner();
     RangedI64ValueParser::new().range(least as i64..=most as i64)
 }
 
 /// Returns a parser of named values. Help lists the names.
-pub(super) fn named<T>(choices: Choices<T>) -> impl TypedValueParser<Value = T>
+pub(crate) fn named<T>(choices: Choices<T>) -> impl TypedValueParser<Value = T>
 where
     T: Copy + PartialEq + Send + Sync + 'static,
 {
@@ -24,7 +29,7 @@ where
     PossibleValuesParser::new(possible).try_map(move |name| choices.find(&name).ok_or("no such value"))
 }
 
-pub(super) fn duration(text: &str) -> Result<Duration, String> {
+pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
     let factor = match text[digits.len()..].trim() {
         "s" => 1.0,
@@ -36,7 +41,17 @@ pub(super) fn duration(text: &str) -> Result<Duration, String> {
     Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())
 }
 
-pub(super) fn share(text: &str) -> Result<f64, String> {
+pub(crate) fn share(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().map_err(|error| error.to_string())?;
     Ok(options::share(value)?)
+}
+
+/// Parses a length that must not be negative, in the length unit of the spec.
+pub(crate) fn length(option: &str, text: &str, spec: &Spec) -> Result<f64, Failure> {
+    let mut document = Document::new(option, text);
+    let value = parse_value(&mut document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
+    match document.finish(value)? {
+        value if value >= 0.0 => Ok(value),
+        _ => Err(Failure::new(option, "this must not be negative").help(format!("write `{option} 0.04mm`"))),
+    }
 }

@@ -26,6 +26,8 @@ pub(super) enum Called {
 
 /// A language. Expressions have no branches.
 pub(super) trait Printer {
+    /// Names of the functions, in the order of [`Called`].
+    const FUNCTIONS: [&'static str; 6];
     /// `if (`, `) {` and `}`.
     const BRANCH: [&'static str; 3];
     /// The end of a loop.
@@ -49,7 +51,9 @@ pub(super) trait Printer {
     fn number(&self, value: f64) -> Expression;
 
     /// Returns the name of a function.
-    fn function(&self, called: Called) -> String;
+    fn function(&self, called: Called) -> String {
+        Self::FUNCTIONS[called as usize].to_owned()
+    }
 
     /// Returns the operators "and", "or" and "is".
     fn operators(&self) -> [&'static str; 3] {

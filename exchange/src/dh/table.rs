@@ -1,9 +1,8 @@
 //! Chain of a spec as rows of four Denavit-Hartenberg numbers.
 
 use abbe::{Manipulator, Pose, VariableKind};
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::TO_URDF;
-use abbe_spec::{DhConvention, DhNumber, mistake};
+use abbe_spec::{DhConvention, DhNumber, Diagnostics, mistake};
 
 use crate::export::{RealMachine, about_x, about_z};
 

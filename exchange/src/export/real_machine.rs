@@ -9,9 +9,8 @@ use std::sync::Arc;
 use abbe::analysis::{Configuration, Workspace, random_joint_samples, sampling};
 use abbe::{Class, Error, Manipulator, Pose, drawn_pose, real_pose};
 use abbe_interpreter::Interpreter;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Dimension;
-use abbe_spec::{DhConvention, Spec, mistake, number};
+use abbe_spec::{DhConvention, Diagnostics, Spec, mistake, number};
 
 use super::chain_errors::{ChainErrors, Link, about_x, about_z};
 use super::error_model::{Cause, ErrorModel};

@@ -6,10 +6,9 @@ use std::sync::Arc;
 use abbe::Manipulator;
 use abbe::analysis::sampling;
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::mistake;
 use abbe_spec::notes::Notes;
+use abbe_spec::{Diagnostics, Spec};
 use serde::Serialize;
 
 use super::chain::{Chain, Frame};

@@ -31,7 +31,7 @@ pub fn compensated(
     let first = compensate(description, target, &q.to_vec(), &cycle, room, |q, columns| {
         let pose = manipulator.joint_jacobian(q, s, columns)?;
         columns.iter_mut().for_each(|column| *column = twist(description.orientation, &pose, column));
-        drawn_pose(manipulator, q, s, u, tool.magnitudes())
+        drawn_pose(manipulator, q, s, u, &tool.magnitudes)
     })?;
     if tool.arrived(&first.after) {
         return Ok(first);

@@ -163,7 +163,8 @@ impl Lane {
         if self.fresh && !norm.is_finite() {
             return Some(Err(Error::NotFinite { quantity: Quantity::Jacobian, index: 0 }));
         }
-        if accepts(self.norm, norm) {
+        // A step must reduce the norm enough.
+        if norm < self.norm * (1.0 - STAGNATION) {
             let squared = self.norm * self.norm;
             self.damping = if self.damping > squared { self.damping / 10.0 } else { 0.0 };
             (self.norm, self.fresh) = (norm, false);
@@ -187,12 +188,6 @@ impl Lane {
         self.iteration += 1;
         None
     }
-}
-
-/// Returns whether a step reduces the norm enough.
-#[inline(always)]
-fn accepts(before: f64, after: f64) -> bool {
-    after < before * (1.0 - STAGNATION)
 }
 
 impl<R: Register, const ROWS: usize> LaneStates<R, ROWS> {

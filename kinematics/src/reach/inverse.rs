@@ -29,7 +29,7 @@ pub fn inverse(
     target: &Target,
 ) -> Result<Vec<f64>, ReachError> {
     let problem = Problem::new(manipulator, s, start, free)?;
-    let nearby = || (Search { problem: &problem, target }).nearby();
+    let nearby = || Search { problem: &problem, target }.from(0);
     if let Some(found) = closed(&problem, target).or_else(nearby) {
         return Ok(found);
     }

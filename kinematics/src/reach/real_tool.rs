@@ -52,7 +52,7 @@ pub(super) struct RealTool<'a> {
     target: &'a Pose,
     /// Original command.
     command: &'a [f64],
-    magnitudes: Vec<f64>,
+    pub(super) magnitudes: Vec<f64>,
     /// Limits of the variables.
     pub(super) limits: Vec<[f64; 2]>,
     /// One metre, and one arm length, in the length unit.
@@ -82,10 +82,6 @@ impl<'a> RealTool<'a> {
         let arm = sampling::arm_length(manipulator, s)?;
         let limits = description.variables.iter().map(|variable| variable.limits).collect();
         Ok(Self { manipulator, description, s, u, target, command, magnitudes, limits, metre, arm })
-    }
-
-    pub(super) fn magnitudes(&self) -> &[f64] {
-        &self.magnitudes
     }
 
     /// Returns whether a ΔX is negligible.

@@ -41,11 +41,6 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the result of the first descent, if it reaches the target.
-    pub(super) fn nearby(&self) -> Option<Vec<f64>> {
-        self.from(0)
-    }
-
     /// Returns the result of the descent from a start, if it reaches the target within the limits.
     pub(super) fn from(&self, start: usize) -> Option<Vec<f64>> {
         let ended = self.descend(&from(self.problem, start, true)).ok()?;

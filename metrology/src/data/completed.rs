@@ -6,8 +6,7 @@ use abbe::Manipulator;
 use abbe::analysis::sampling::nominal_parameters;
 use abbe::identify::Observation;
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 use abbe_study::mistake;
 use abbe_study::open_loops::open_loops;
 

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use abbe::Pose;
 use abbe::analysis::Configuration;
 use abbe::identify::{Measurement, Observation, Uncertainty};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 
 use super::column::{Channel, Column, Scale};
 use super::configurations::resolution;

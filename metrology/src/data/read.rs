@@ -5,10 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use abbe::identify::{Uncertainty, register};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
+use abbe_spec::{Diagnostic, Diagnostics, Spec};
 
 use super::choices::{BASES, QUATERNION_ORDERS};
 use super::column::Column;

@@ -42,7 +42,7 @@ fn joint_changes(kinematics: &Kinematics) -> Vec<Vec<Change>> {
         }
     }
     all.extend((0..count).map(|joint| Change::Zero { joint, offset: 0.0 }));
-    if kinematics.has_convention() {
+    if kinematics.other.is_some() {
         all.push(Change::Convention);
     }
     up_to_pairs(&all)

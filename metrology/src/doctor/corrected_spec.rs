@@ -8,11 +8,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use abbe::VariableKind;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Item;
 use abbe_spec::edit::Edits;
 use abbe_spec::edit::write::quoted;
+use abbe_spec::{Diagnostics, Spec};
 
 use super::report::Report;
 use crate::interpretations::{Change, words};

@@ -11,7 +11,7 @@ use crate::interpretations::{Chain, Parts};
 /// other convention.
 pub(super) struct Kinematics {
     as_written: Interpreter,
-    other: Option<Interpreter>,
+    pub(super) other: Option<Interpreter>,
     parameters: Vec<f64>,
     kinds: Vec<VariableKind>,
     /// Number of frames before the first joint.
@@ -43,11 +43,6 @@ impl Kinematics {
         let [_, _, tool] = kinematics.parts(&home, false)?;
         kinematics.has_tool = tool != Pose::IDENTITY;
         Ok(kinematics)
-    }
-
-    /// Returns true if any frame has Denavit-Hartenberg parameters.
-    pub(super) fn has_convention(&self) -> bool {
-        self.other.is_some()
     }
 
     /// Returns true if the chain starts with fixed frames.

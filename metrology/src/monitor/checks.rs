@@ -5,8 +5,7 @@ use std::mem::take;
 
 use abbe::identify::Observation;
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 
 use crate::data::{Data, Dated, Map, Source};
 use abbe_study::date::{Calendar, in_name, parse_date};

@@ -8,9 +8,8 @@ use std::sync::Arc;
 
 use abbe::analysis::{Axis, Configuration, Workspace, joint_grid};
 use abbe::{Error, Manipulator};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 use abbe_spec::document::{Document, Section};
+use abbe_spec::{Diagnostic, Diagnostics, Spec};
 use serde::Serialize;
 
 use super::keys;

@@ -9,8 +9,7 @@ use abbe::Manipulator;
 use abbe::analysis::{JointSamples, Workspace, random_joint_samples};
 use abbe::identify::{Chance, Failure, Observation, Simulated, Uncertainty};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Input;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Input};
 use serde::Serialize;
 
 use crate::data::{Channel, Data, Heading, Instruments, Map, Table};

@@ -9,6 +9,7 @@ use abbe_interpreter::Interpreter;
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::{Identify, Settings};
+use abbe_metrology::measure::Measure;
 use abbe_spec::Spec;
 use abbe_study::Machine;
 
@@ -147,35 +148,52 @@ fn without_sources(text: &str) -> String {
     tables.collect::<Vec<_>>().join("\n\n")
 }
 
+/// Returns a job that identifies a platform without sources, from poses or from points alone.
+fn job(observations: Vec<Observation>, is_pose: bool, uncertainty: [&str; 2]) -> Identify {
+    let nominal = without_sources(&hexapod(&[[0.0; 7]; 6], ""));
+    let machine = Machine::of_spec(Spec::parse("hexapod.toml", &nominal).unwrap(), "hexapod.toml");
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"q{i}\", unit = \"mm\" }}\n")).collect();
+    let [length, angle] = uncertainty;
+    let measured = match is_pose {
+        true => {
+            "[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
+                 quaternion = { columns = [\"a\", \"b\", \"c\", \"d\"], order = \"wxyz\" }\n"
+        }
+        false => "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n",
+    };
+    let angle = if is_pose { format!("angle_uncertainty = \"{angle}\"\n") } else { String::new() };
+    let map = format!(
+        "[data]\nuncertainty = \"{length}\"\n{angle}base = \"unknown\"\n\n[joints]\n{joints}\n{measured}"
+    );
+    let map = Map::parse("map.toml", &map, &machine.spec).unwrap();
+    Identify {
+        machine,
+        map,
+        data: data("data.csv", observations),
+        test: None,
+        terms: Vec::new(),
+        harmonics: Vec::new(),
+        settings: Settings::default(),
+        accept: Acceptance::default(),
+    }
+}
+
+fn data(file: &str, observations: Vec<Observation>) -> Data {
+    Data { file: file.to_owned(), observations, ..Data::default() }
+}
+
 /// `identify` finds the lengths of the legs beside the errors of the frames, without any source in
 /// the spec: the identified machine has the poses of the real one at rows that were not fitted, and
 /// the rank is that of 42 numbers.
 #[test]
 fn lengths_of_legs_are_identified() {
-    let nominal = without_sources(&hexapod(&[[0.0; 7]; 6], ""));
-    let machine = Machine::of_spec(Spec::parse("hexapod.toml", &nominal).unwrap(), "hexapod.toml");
-    let joints: String =
-        (1..=6).map(|i| format!("q{i} = {{ column = \"q{i}\", unit = \"mm\" }}\n")).collect();
-    let map = format!(
-        "[data]\nuncertainty = \"0.001 mm\"\nangle_uncertainty = \"2 urad\"\nbase = \"unknown\"\n\n[joints]\n{joints}\n\
-         [pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
-         quaternion = {{ columns = [\"a\", \"b\", \"c\", \"d\"], order = \"wxyz\" }}\n"
-    );
-    let map = Map::parse("map.toml", &map, &machine.spec).unwrap();
     let truth = some_errors();
     let mut observations = poses(&truth, 80);
     let test = observations.split_off(60);
-    let data = |file: &str, observations| Data { file: file.to_owned(), observations, ..Data::default() };
-    let job = Identify {
-        machine,
-        map,
-        data: data("data.csv", observations),
-        test: Some(data("test.csv", test)),
-        terms: Vec::new(),
-        harmonics: Vec::new(),
-        settings: Settings::default(),
-        accept: Acceptance::default(),
-    };
+    let nominal = without_sources(&hexapod(&[[0.0; 7]; 6], ""));
+    let job =
+        Identify { test: Some(data("test.csv", test)), ..job(observations, true, ["0.001 mm", "2 urad"]) };
     let report = job.run(&mut ()).unwrap();
     assert_eq!(report.rank, 42);
     let found = report.found.identified_spec(&job.machine.spec, &nominal, "found.toml").unwrap().text;
@@ -184,4 +202,52 @@ fn lengths_of_legs_are_identified() {
     // The identified machine predicts rows that were not fitted.
     let test = report.test.unwrap();
     assert!(test.after.max < 1e-6 && test.before.max > 0.1, "{:?}", test.after);
+}
+
+/// Rows at which the loops do not close are listed with their loop, and change nothing else: neither
+/// for `identify` nor for `measure`.
+#[test]
+fn rows_that_do_not_close_are_listed() {
+    let observations = poses(&some_errors(), 60);
+    let with = |line: u64| {
+        let mut observations = observations.clone();
+        let mut open = observations[0].clone();
+        (open.line, open.q[2]) = (line, 3000.0);
+        observations.insert(10, open);
+        job(observations, true, ["0.01 mm", "20 urad"])
+    };
+    let identified = with(99).run(&mut ()).unwrap();
+    let without = job(observations.clone(), true, ["0.01 mm", "20 urad"]).run(&mut ()).unwrap();
+    assert_eq!((identified.rank, identified.fit.after.rms), (without.rank, without.fit.after.rms));
+    let Identify { machine, map, data, accept, .. } = with(99);
+    let measured = Measure { machine, map, data, accept }.run(&mut ()).unwrap();
+    assert_eq!((measured.rows, measured.unusable), (60, 1));
+    let [listed] = &measured.file.unusable[..] else { panic!("{:?}", measured.file.unusable) };
+    assert_eq!(listed.line, 99);
+    assert!(listed.reason.contains("do not close: loop \"leg") && listed.reason.contains("mm"), "{listed:?}");
+}
+
+/// The iterations converge with noise, from poses and from points alone, whose base and tool are
+/// unknown: a long valley of the cost is shortened by a smaller prior, and the report says so.
+#[test]
+fn noisy_platforms_are_identified() {
+    for (is_pose, count) in [(true, 30), (true, 150), (false, 30), (false, 150)] {
+        let exact = poses(&some_errors(), count);
+        for run in 0..sample_size(20).max(2) as u64 {
+            let mut numbers = sampling::stream(17, run);
+            let noisy = |row: &Observation| {
+                let noisy = with_noise(row, &mut numbers);
+                match (&noisy.measured, is_pose) {
+                    (Measurement::Pose(pose), false) => {
+                        Observation { measured: Measurement::Points(vec![Some(pose.position())]), ..noisy }
+                    }
+                    _ => noisy,
+                }
+            };
+            let report = job(exact.iter().map(noisy).collect(), is_pose, ["0.01 mm", "20 urad"]).run(&mut ());
+            let report = report.unwrap_or_else(|mistakes| panic!("{count} {run}: {mistakes}"));
+            let left = report.fit.after.rms;
+            assert!(left < 0.01 * 3_f64.sqrt(), "{count} {run}: {left}");
+        }
+    }
 }

@@ -99,7 +99,7 @@ where
         }
     }
     let status = match () {
-        () if bounds.is_outside(start.as_ref()) => Status::OutsideLimits,
+        () if bounds.command.as_ref() != start.as_ref() => Status::OutsideLimits,
         () if problem.is_reached(&left) => Status::Reached,
         () if bounds.hold(best.as_ref()) => Status::Held,
         () if moved > REST => Status::NotConverged,

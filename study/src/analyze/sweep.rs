@@ -8,8 +8,7 @@ use abbe::analysis::{
     Budget, BudgetSweep, Configuration, ErrorParts, Measurand, PartialBudget, Row, Statement, Subset,
     Sweepable, Unevaluated, Watch, Workspace, errors_at, monte_carlo,
 };
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 use serde::{Deserialize, Serialize};
 
 use super::errors_with_parts::LargestWithParts;

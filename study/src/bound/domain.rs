@@ -7,9 +7,8 @@ use abbe::analysis::{BudgetOptions, Configuration, Measurand, error_budget};
 use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
 use abbe_codegen::chain::{DIRECTION, Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Symbol;
+use abbe_spec::{Diagnostics, Spec};
 use indexmap::IndexMap;
 
 use crate::machine::Machine;

@@ -163,12 +163,8 @@ impl Axis {
 
     /// Returns the distance to a parallel axis.
     fn distance(&self, other: &Self) -> f64 {
-        let between = cross(self.lever(other), self.direction);
+        let between = cross(std::array::from_fn(|i| self.point[i] - other.point[i]), self.direction);
         dot(between, between).sqrt()
-    }
-
-    fn lever(&self, other: &Self) -> Vector {
-        std::array::from_fn(|i| self.point[i] - other.point[i])
     }
 
     fn coincides_with(&self, other: &Self) -> bool {

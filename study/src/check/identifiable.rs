@@ -14,12 +14,6 @@ use crate::number;
 /// Seed of the sampled configurations.
 const SEED: u64 = 1;
 
-/// Returns the number of configurations that is enough for the rank of a chain whose longest part
-/// has this many transforms.
-fn configurations(longest: usize) -> usize {
-    (3 * longest).max(60)
-}
-
 /// Identifiability for one kind of measurement.
 #[derive(Clone, Debug, Serialize)]
 pub struct Identifiable {
@@ -54,7 +48,8 @@ pub(super) fn count(manipulator: &Interpreter, notes: &mut dyn Notes) -> Result<
     let is_chain = manipulator.spec().is_serial();
     let moved = (0..description.variables.len()).collect::<Vec<_>>();
     let longest = if is_chain { parts.longest() } else { description.frames.len() + 1 };
-    let configurations = configurations(longest);
+    // Enough for the rank of a chain whose longest part has this many transforms.
+    let configurations = (3 * longest).max(60);
     let samples = random_joint_samples(manipulator, &moved, configurations, SEED)
         .map(|workspace| workspace.reached())
         .map_err(|error| error.to_string());

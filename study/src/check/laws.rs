@@ -7,8 +7,7 @@ use std::ops::ControlFlow;
 use abbe::analysis::in_order_until;
 use abbe::lanes::Batches;
 use abbe::laws::{self, Discrepancy, Failure};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 use serde::Serialize;
 
 use crate::notes::Notes;

@@ -17,8 +17,7 @@ mod unused;
 use std::sync::Arc;
 
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 use serde::Serialize;
 
 use crate::finite;

@@ -1,8 +1,7 @@
 //! Configurations of the study's workspace, or of measured rows.
 
 use abbe::analysis::{Configuration, Subset, Workspace};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 
 use super::report::Configurations;
 use crate::analyze::Analyze;

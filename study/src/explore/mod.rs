@@ -13,8 +13,7 @@ use std::sync::Arc;
 
 use abbe_codegen::print::Language;
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 
 use crate::analyze::Analyze;
 use crate::finite;

@@ -9,9 +9,8 @@ use abbe::analysis::{
     AllocationCriterion, Allocator, ErrorParts, ErrorRow, Measurand, Row, ScalableSource, Sweepable,
     Workspace, sweep,
 };
-use abbe_spec::Source;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::option;
+use abbe_spec::{Diagnostics, Source};
 
 use crate::finite::finite;
 use crate::machine::{Machine, followed_source};

@@ -2,11 +2,10 @@
 
 use abbe::Description;
 use abbe::analysis::Residual;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item};
 use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
 use abbe_spec::value::find_name;
+use abbe_spec::{Diagnostic, Spec};
 
 use super::keys;
 

@@ -19,10 +19,9 @@
 //! ```
 
 use abbe::analysis::Measurand;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::value::{find_name, read_name};
+use abbe_spec::{Diagnostic, Spec};
 use serde::{Serialize, Serializer};
 
 use super::choices::{KINDS, Kind, MEASURANDS, UP_AXES};

@@ -1,10 +1,9 @@
 //! Published figures for comparison with the computed ones.
 
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
+use abbe_spec::{Diagnostic, Spec};
 use serde::Serialize;
 
 use super::choices::{CombinedFigure, Metric};

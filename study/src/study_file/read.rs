@@ -4,10 +4,9 @@ use abbe_spec::option::STUDY;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Symbol;
+use abbe_spec::{Diagnostic, Diagnostics, Spec};
 use sha2::{Digest, Sha256};
 
 use super::allocation;

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 
 use super::choices::{Criterion, JudgedMachine};
 use super::compensation::Compensated;

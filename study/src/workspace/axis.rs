@@ -4,11 +4,10 @@ use std::ops::Range;
 
 use abbe::analysis::{Axis, sampling};
 use abbe::{LengthUnit, VariableKind};
-use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
-use abbe_spec::{Spec, Variable};
+use abbe_spec::{Diagnostic, Spec, Variable};
 
 use crate::number;
 

@@ -3,10 +3,9 @@
 use std::ops::Range;
 
 use abbe::analysis::{Axis, BaseBox, Presentation, ToolOrientation};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
+use abbe_spec::{Diagnostic, Spec};
 
 use super::axis::{Candidates, values};
 use super::constant::{constant, count, whole};

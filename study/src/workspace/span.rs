@@ -2,9 +2,8 @@
 
 use abbe::Manipulator;
 use abbe::analysis::{Axis, BaseBox, Presentation};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Symbol;
+use abbe_spec::{Diagnostics, Spec};
 
 use super::region::{Form, Region};
 use crate::mistake;

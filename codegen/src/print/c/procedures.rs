@@ -48,6 +48,7 @@ impl CPrinter<'_> {
 }
 
 impl Printer for CPrinter<'_> {
+    const FUNCTIONS: [&'static str; 6] = ["fabs", "sqrt", "atan2", "clamped", "sine", "cosine"];
     const BRANCH: [&'static str; 3] = ["if (", ") {", "}"];
     const ADDS_IN_PLACE: bool = true;
     const SKIPS_EMPTY: bool = true;
@@ -62,13 +63,10 @@ impl Printer for CPrinter<'_> {
     }
 
     fn function(&self, called: Called) -> String {
+        let name = Self::FUNCTIONS[called as usize];
         match called {
-            Called::Absolute => self.real.function("fabs"),
-            Called::Root => self.real.function("sqrt"),
-            Called::Arctangent => self.real.function("atan2"),
-            Called::Clamped => "clamped".to_owned(),
-            Called::Sine => "sine".to_owned(),
-            Called::Cosine => "cosine".to_owned(),
+            Called::Absolute | Called::Root | Called::Arctangent => self.real.function(name),
+            Called::Clamped | Called::Sine | Called::Cosine => name.to_owned(),
         }
     }
 

@@ -6,7 +6,7 @@ use super::operators::number;
 use crate::print::expression::{Expression, Value};
 use crate::print::flat::filled;
 use crate::print::layout::Writer;
-use crate::print::procedure::{Called, Invocation, Printer};
+use crate::print::procedure::{Invocation, Printer};
 use crate::print::text::OPEN;
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::{Routine, Routines, Stage};
@@ -37,6 +37,8 @@ pub(super) struct JavaScriptPrinter<'p> {
 }
 
 impl Printer for JavaScriptPrinter<'_> {
+    const FUNCTIONS: [&'static str; 6] =
+        ["Math.abs", "Math.sqrt", "Math.atan2", "clamped", "Math.sin", "Math.cos"];
     const BRANCH: [&'static str; 3] = ["if (", ") {", "}"];
     const ADDS_IN_PLACE: bool = true;
 
@@ -46,18 +48,6 @@ impl Printer for JavaScriptPrinter<'_> {
 
     fn number(&self, value: f64) -> Expression {
         Expression::number(number(value), value)
-    }
-
-    fn function(&self, called: Called) -> String {
-        match called {
-            Called::Absolute => "Math.abs",
-            Called::Root => "Math.sqrt",
-            Called::Arctangent => "Math.atan2",
-            Called::Clamped => "clamped",
-            Called::Sine => "Math.sin",
-            Called::Cosine => "Math.cos",
-        }
-        .to_owned()
     }
 
     fn operators(&self) -> [&'static str; 3] {

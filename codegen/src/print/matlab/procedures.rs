@@ -27,6 +27,7 @@ pub(super) struct MatlabPrinter<'p> {
 }
 
 impl Printer for MatlabPrinter<'_> {
+    const FUNCTIONS: [&'static str; 6] = ["abs", "sqrt", "atan2", "clamped", "sin", "cos"];
     const BRANCH: [&'static str; 3] = ["if ", "", "end"];
     const LOOP_END: &'static str = "end";
     const LEAVE: &'static str = "break";
@@ -44,14 +45,8 @@ impl Printer for MatlabPrinter<'_> {
     }
 
     fn function(&self, called: Called) -> String {
-        match called {
-            Called::Absolute => "abs".to_owned(),
-            Called::Root => "sqrt".to_owned(),
-            Called::Arctangent => "atan2".to_owned(),
-            Called::Clamped => format!("{}.clamped", self.class),
-            Called::Sine => "sin".to_owned(),
-            Called::Cosine => "cos".to_owned(),
-        }
+        let name = Self::FUNCTIONS[called as usize];
+        if called == Called::Clamped { self.constant(name) } else { name.to_owned() }
     }
 
     /// Matrices begin at 1.

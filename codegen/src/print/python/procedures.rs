@@ -8,7 +8,7 @@ use abbe_core::compensator::Status;
 use super::operators::number;
 use crate::print::expression::{Binding, Expression, Value};
 use crate::print::layout::Writer;
-use crate::print::procedure::{Called, Invocation, Printer};
+use crate::print::procedure::{Invocation, Printer};
 use crate::print::text::{OPEN, harmless};
 use crate::procedure::{Condition, Counter, Index, Procedure, Statement, Variable};
 use crate::program::{Role, Routines};
@@ -35,6 +35,7 @@ impl PythonPrinter<'_> {
 const ROUND: &str = "6755399441055744.0";
 
 impl Printer for PythonPrinter<'_> {
+    const FUNCTIONS: [&'static str; 6] = ["np.abs", "np.sqrt", "np.arctan2", "_clamped", "np.sin", "np.cos"];
     const BRANCH: [&'static str; 3] = ["if np.all(", "):", ""];
     const LOOP_END: &'static str = "";
     const LEAVE: &'static str = "break";
@@ -49,18 +50,6 @@ impl Printer for PythonPrinter<'_> {
 
     fn number(&self, value: f64) -> Expression {
         Expression::number(number(value), value)
-    }
-
-    fn function(&self, called: Called) -> String {
-        match called {
-            Called::Absolute => "np.abs",
-            Called::Root => "np.sqrt",
-            Called::Arctangent => "np.arctan2",
-            Called::Clamped => "_clamped",
-            Called::Sine => "np.sin",
-            Called::Cosine => "np.cos",
-        }
-        .to_owned()
     }
 
     fn operators(&self) -> [&'static str; 3] {

@@ -103,6 +103,14 @@ impl BlockPrinter<'_> {
 }
 
 impl Printer for BlockPrinter<'_> {
+    const FUNCTIONS: [&'static str; 6] = [
+        "ABS",
+        "SQRT",
+        Support::Arctangent.name(),
+        Support::Clamped.name(),
+        Support::Sine.name(),
+        Support::Cosine.name(),
+    ];
     const BRANCH: [&'static str; 3] = ["IF ", " THEN", "END_IF;"];
     const LOOP_END: &'static str = "END_FOR;";
     const HAS_LESS: bool = false;
@@ -140,15 +148,11 @@ impl Printer for BlockPrinter<'_> {
     }
 
     fn function(&self, called: Called) -> String {
-        let support = match called {
-            Called::Absolute => return "ABS".to_owned(),
-            Called::Root => return "SQRT".to_owned(),
-            Called::Arctangent => Support::Arctangent,
-            Called::Clamped => Support::Clamped,
-            Called::Sine => Support::Sine,
-            Called::Cosine => Support::Cosine,
-        };
-        format!("{}_{}", self.prefix, support.name())
+        let name = Self::FUNCTIONS[called as usize];
+        match called {
+            Called::Absolute | Called::Root => name.to_owned(),
+            _ => format!("{}_{name}", self.prefix),
+        }
     }
 
     fn operators(&self) -> [&'static str; 3] {

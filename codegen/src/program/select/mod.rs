@@ -81,7 +81,7 @@ impl Selection {
             search.change_together(graph);
             search.compute_anew();
         }
-        let chosen = search.chosen().map(|alternative| alternatives.node(alternative)).collect();
+        let chosen = search.chosen.iter().map(|alternative| alternatives.node(*alternative)).collect();
         Self { classes: alternatives.classes, chosen }
     }
 

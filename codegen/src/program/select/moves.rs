@@ -108,7 +108,7 @@ impl Search<'_> {
     pub(super) fn give(&mut self) {
         let before = self.cost;
         for gift in 0..self.alternatives.count() as u32 {
-            if self.is_used(gift) || self.estimated(gift) > LARGEST_GIFT {
+            if self.is_used(gift) || self.estimate[gift as usize] > LARGEST_GIFT {
                 continue;
             }
             let users = self.used_users(gift);

@@ -8,13 +8,13 @@ const UNKNOWN: u32 = u32::MAX / 4;
 
 pub(super) struct Search<'w> {
     pub(super) alternatives: &'w Alternatives,
-    chosen: Vec<u32>,
+    pub(super) chosen: Vec<u32>,
     uses: Vec<u32>,
     /// Total cost of all used classes.
     pub(super) cost: u32,
     /// Marginal cost of using a class: 0 if it is used, else its last estimate.
     price: Vec<u32>,
-    estimate: Vec<u32>,
+    pub(super) estimate: Vec<u32>,
     /// Classes that keep their alternative when they come into use.
     pub(super) held: Vec<bool>,
     /// Classes that always keep their alternative.
@@ -45,11 +45,6 @@ impl<'w> Search<'w> {
         search
     }
 
-    /// Returns the alternative of each class.
-    pub(super) fn chosen(&self) -> impl Iterator<Item = u32> {
-        self.chosen.iter().copied()
-    }
-
     pub(super) fn alternative(&self, class: u32) -> u32 {
         self.chosen[class as usize]
     }
@@ -61,11 +56,6 @@ impl<'w> Search<'w> {
 
     pub(super) fn is_used(&self, class: u32) -> bool {
         self.uses[class as usize] > 0
-    }
-
-    /// Returns the estimated cost of an unused class.
-    pub(super) fn estimated(&self, class: u32) -> u32 {
-        self.estimate[class as usize]
     }
 
     /// Adds a use of a class. A class that was unused takes the alternative with the lowest

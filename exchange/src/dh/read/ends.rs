@@ -1,9 +1,8 @@
 //! Rows of base and tool: `x`, `y`, `z`, `roll`, `pitch` and `yaw` as in URDF, or four constant
 //! numbers.
 
-use abbe_spec::DhConvention;
 use abbe_spec::diagnostic::Span;
-use abbe_spec::document::Document;
+use abbe_spec::{DhConvention, Document};
 
 use super::cell::Cells;
 use super::heading::Quantity;

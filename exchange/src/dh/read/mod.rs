@@ -12,11 +12,10 @@ mod rows;
 mod text;
 
 use abbe::LengthUnit;
-use abbe_spec::DhConvention;
 use abbe_spec::diagnostic::listed;
-use abbe_spec::document::Document;
 use abbe_spec::notes::Notes;
 use abbe_spec::option::option;
+use abbe_spec::{DhConvention, Document};
 
 use self::cell::Cells;
 use self::columns::Columns;

@@ -1,9 +1,8 @@
 //! Rows of a table as joints.
 
 use abbe_spec::diagnostic::{Diagnostic, Span};
-use abbe_spec::document::Document;
 use abbe_spec::notes::Notes;
-use abbe_spec::{DhConvention, as_identifier};
+use abbe_spec::{DhConvention, Document, as_identifier};
 
 use super::cell::{Amount, Cells};
 use super::heading::Quantity;

@@ -3,10 +3,9 @@
 use abbe_spec::option::DH;
 use std::path::Path;
 
-use abbe_spec::DhConvention;
 use abbe_spec::diagnostic::{Diagnostic, Span};
-use abbe_spec::document::Document;
 use abbe_spec::number::counted;
+use abbe_spec::{DhConvention, Document};
 
 use super::heading::Heading;
 

@@ -33,11 +33,6 @@ impl<Q: Clone + AsRef<[f64]> + AsMut<[f64]>> Bounds<Q> {
         Self { command, begin, lower, upper }
     }
 
-    /// Returns `true` if the command is beyond a limit.
-    pub(super) fn is_outside(&self, start: &[f64]) -> bool {
-        self.command.as_ref() != start
-    }
-
     pub(super) fn contain(&self, q: &[f64]) -> bool {
         q.iter().enumerate().all(|(j, value)| self.clamped(j, *value) == *value)
     }

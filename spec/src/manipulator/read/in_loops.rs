@@ -36,7 +36,8 @@ pub(super) fn check_sources_in_loops(
             closed.closure.length().is_some_and(|length| length.symbols().any(|used| used == symbol))
         });
         if deviation.is_elastic() {
-            let moved = (0..tree.frames.len()).filter(|frame| uses(tree, *frame, symbol));
+            let moved = (0..tree.frames.len())
+                .filter(|frame| tree.frames[*frame].symbols().any(|used| used == symbol));
             let within = lengths
                 .into_iter()
                 .next()
@@ -57,10 +58,6 @@ pub(super) fn check_sources_in_loops(
             document.mistake(in_tool_of_loop(tree, closed, deviation, declarations));
         }
     }
-}
-
-fn uses(tree: Tree<'_>, frame: usize, symbol: Symbol) -> bool {
-    tree.frames[frame].symbols().any(|used| used == symbol)
 }
 
 /// Returns a loop whose forces load a frame: one of its ends moves with the frame, the other does

@@ -2,8 +2,7 @@
 
 use abbe::Description;
 use abbe::analysis::{Configuration, Row, Sweepable, sweep};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 
 use super::figure::{Figure, FigureData, Figures};
 use super::figure_builder::{FigureBuilder, PartialFigure};

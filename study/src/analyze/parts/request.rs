@@ -3,10 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use abbe_spec::Spec;
 use abbe_spec::bounded::{Bounded, Contents, UnreadableFile};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Document;
+use abbe_spec::{Diagnostics, Document, Spec};
 use serde::{Deserialize, Serialize};
 
 use crate::analyze::Analyze;
