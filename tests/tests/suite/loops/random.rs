@@ -184,7 +184,7 @@ fn laws_hold_for_random_mechanisms() {
 
 /// Returns `true` if the mechanism closes around home, and errors and joints have effects of their
 /// order there.
-fn is_regular(machine: &Interpreter) -> bool {
+pub(super) fn is_regular(machine: &Interpreter) -> bool {
     let description = machine.description();
     let home: Vec<f64> = description.variables.iter().map(|variable| variable.home).collect();
     let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
