@@ -134,7 +134,8 @@ methods! {
         covariance(sigma: Squares) = Covariance;
     }
     inputs {
-        /// (…, np): forces that close the loops under the loads, to first order, in units N and N·m.
+        /// (…, np): forces that close the loops under the loads, to first order, in units N and
+        /// N·m.
         ///
         /// One for each equation of the loops, in their order; that of a leg is positive if it
         /// presses its ends apart. `inputs`: as for `generalized_errors`. Configurations where the

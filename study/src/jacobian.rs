@@ -11,7 +11,7 @@ use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
 use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
-use abbe_spec::{Closure, Spec, Variable};
+use abbe_spec::{Spec, Variable};
 use serde::Serialize;
 
 use crate::finite::finite;
@@ -97,10 +97,7 @@ impl Jacobian {
         let poses = interpreter
             .error_jacobian(&q, &s, &mut columns)
             .and_then(|_| interpreter.generalized_errors(&q, &s, &u, &mut errors))
-            .and_then(|()| match spec.loops.is_empty() {
-                true => Ok(()),
-                false => interpreter.leg_forces(&q, &s, &u, &mut forces),
-            })
+            .and_then(|()| interpreter.leg_forces(&q, &s, &u, &mut forces))
             // The pose computed beside J_e may differ in its last bits; use the one of `pose`.
             .and_then(|()| Ok([interpreter.pose(&q, &s)?, interpreter.real_pose(&q, &s, &u)?]))
             .map_err(|error| {
@@ -149,13 +146,7 @@ impl Report {
 /// Names the forces of the loops.
 fn leg_forces(spec: &Spec, forces: &[f64]) -> Vec<LegForce> {
     let equations = spec.loops.iter().flat_map(|closed| {
-        let closes = match &closed.closure {
-            Closure::Distance(_) => vec!["distance"],
-            Closure::Coordinates(coordinates) => {
-                coordinates.iter().map(|i| Closure::COORDINATES[*i]).collect()
-            }
-        };
-        closes.into_iter().map(|closes| (closed.name.clone(), closes))
+        (0..closed.closure.equations()).map(|i| (closed.name.clone(), closed.closure.coordinate(i)))
     });
     // Adding 0 turns −0 into 0.
     equations

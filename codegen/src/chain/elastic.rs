@@ -1,7 +1,7 @@
 //! Deflection of beams and compliances under loads.
 //!
 //! An element carries the loads of the frames behind its own and of its own frame; among them are
-//! the forces of loops whose frames it does not carry all, see [`Reactions`]. A beam extends
+//! the forces of loops whose frames it does not carry all, see [`Reaction`]. A beam extends
 //! from its end M back to its clamped end. A load of the beam's own frame acts where the load's
 //! point projects onto the beam: beyond M it acts at M, before the clamped end not at all.
 
@@ -11,7 +11,7 @@ use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
 
 use super::deviation::transform_twists;
 use super::six::{six, vectors};
-use super::tree::{Parts, Reactions, length_slopes};
+use super::tree::{Parts, Reaction, length_slopes};
 use super::walk::transform;
 use crate::graph::{Frame, Graph, Node, Vector};
 
@@ -33,7 +33,8 @@ pub(super) struct Loads<'a> {
     frames: &'a [Frame],
     acting: Vec<Acting>,
     weights: Vec<Weight<'a>>,
-    reactions: Reactions,
+    /// Forces of the loops.
+    reactions: Vec<Reaction>,
 }
 
 /// A force and a moment at a point.
@@ -78,33 +79,34 @@ impl<'a> Loads<'a> {
                 weights.push(Weight { effect, end, axis: beam.axis, length, force });
             }
         }
-        let mut loads = Self { spec, frames, acting, weights, reactions: Reactions::default() };
+        let mut loads = Self { spec, frames, acting, weights, reactions: Vec::new() };
         if !spec.loops.is_empty() {
             let passive = (0..spec.passive.len()).map(Symbol::Local);
             let on_passive: Vec<Node> = passive.map(|symbol| loads.on_symbol(graph, symbol)).collect();
             let parts = Parts::new(graph, spec);
-            loads.reactions = Reactions::new(graph, &parts, &on_passive);
+            loads.reactions = parts.reactions(graph, &on_passive);
         }
         loads
     }
 
     /// Returns the forces that close the loops, in N and N·m, one per equation.
     pub(super) fn of_loops(&self, graph: &mut Graph) -> Vec<Node> {
-        let length = self.spec.length.in_metres();
-        let angles = self.spec.loops.iter().map(|closed| &closed.closure);
-        let angles = angles.flat_map(|closure| (0..closure.equations()).map(|i| closure.is_angle(i)));
-        let mut in_newtons = |(force, is_angle): (&Node, bool)| {
-            let unit = graph.constant(if is_angle { length * length } else { length });
-            graph.mul(unit, *force)
-        };
-        self.reactions.forces.iter().zip(angles).map(|each| in_newtons(each)).collect()
+        let (mut forces, length) = (Vec::new(), self.spec.length.in_metres());
+        for (closed, reaction) in self.spec.loops.iter().zip(&self.reactions) {
+            for (i, force) in reaction.forces.iter().enumerate() {
+                let unit = if closed.closure.is_angle(i) { length * length } else { length };
+                let unit = graph.constant(unit);
+                forces.push(graph.mul(unit, *force));
+            }
+        }
+        forces
     }
 
     /// Creates a single force at the tool point, in the axes that the frames' poses are given in.
     pub(super) fn at_tool(graph: &mut Graph, spec: &'a Spec, frames: &'a [Frame], force: Vector) -> Self {
         let point = transform(graph, &spec.tool).position;
         let acting = Acting { frame: spec.tool_frame, point, force, moment: [graph.zero(); 3] };
-        Self { spec, frames, acting: vec![acting], weights: Vec::new(), reactions: Reactions::default() }
+        Self { spec, frames, acting: vec![acting], weights: Vec::new(), reactions: Vec::new() }
     }
 
     /// Returns the errors `ε = C w` of a compliance, in its axes.
@@ -188,7 +190,9 @@ impl<'a> Loads<'a> {
     /// ```
     pub(super) fn on_symbol(&self, graph: &mut Graph, symbol: Symbol) -> Node {
         let mut sum = graph.zero();
-        for twist in transform_twists(graph, self.spec, symbol) {
+        let at_rest = [[graph.zero(); 3]; 2];
+        let twists = transform_twists(graph, self.spec, symbol);
+        for twist in twists.iter().filter(|twist| [twist.velocity, twist.rotation] != at_rest) {
             let mut carried = self.at_or_behind(graph, twist.frame);
             let weights = self.weights.iter();
             for weight in weights.filter(|weight| self.spec.carries(twist.frame, weight.effect.frame)) {
@@ -201,13 +205,10 @@ impl<'a> Loads<'a> {
                 sum = graph.add(sum, power);
             }
         }
-        let mut forces = &self.reactions.forces[..];
-        for (closed, slope) in self.spec.loops.iter().zip(length_slopes(graph, self.spec, symbol)) {
-            if let [force, ..] = forces {
-                let power = graph.mul(*force, slope);
-                sum = graph.sub(sum, power);
-                forces = &forces[closed.closure.equations()..];
-            }
+        let slopes = length_slopes(graph, self.spec, symbol);
+        for (reaction, slope) in self.reactions.iter().zip(slopes) {
+            let power = graph.mul(reaction.forces[0], slope);
+            sum = graph.sub(sum, power);
         }
         sum
     }
@@ -217,14 +218,13 @@ impl<'a> Loads<'a> {
         let (carries, point) = (|other: usize| self.spec.carries(frame, other), [graph.zero(); 3]);
         let mut carried: Vec<Acting> =
             self.acting.iter().filter(|load| carries(load.frame)).copied().collect();
-        for wrenches in &self.reactions.wrenches {
-            let here = |end: &&(Option<usize>, _)| end.0.is_some_and(carries);
+        for Reaction { wrenches, .. } in &self.reactions {
+            let here = |frame: &Option<usize>| frame.is_some_and(carries);
             // The wrenches of a loop that is carried as a whole add up to zero.
-            if !wrenches.iter().all(|end| here(&end)) {
-                let at_origin = |(frame, [force, moment]): &(Option<usize>, [Vector; 2])| {
-                    frame.map(|frame| Acting { frame, point, force: *force, moment: *moment })
-                };
-                carried.extend(wrenches.iter().filter(here).filter_map(at_origin));
+            if !wrenches.iter().all(|(frame, _)| here(frame)) {
+                for (frame, [force, moment]) in wrenches.iter().copied().filter(|(frame, _)| here(frame)) {
+                    carried.extend(frame.map(|frame| Acting { frame, point, force, moment }));
+                }
             }
         }
         carried

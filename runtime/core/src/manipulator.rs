@@ -126,13 +126,13 @@ pub trait Manipulator: Sync {
         }
     }
 
-    /// Computes the forces λ that close the loops under the loads of the spec, in N and N·m, one per
-    /// equation of the loops; the force of a leg is positive if it presses its ends apart.
-    /// Manipulators without loops have none.
+    /// Computes the forces λ that close the loops under the loads, in N and N·m, one per equation
+    /// of the loops; the force of a leg is positive if it presses its ends apart. Manipulators
+    /// without loops have none.
     fn leg_forces(&self, q: &[f64], s: &[f64], u: &[f64], forces: &mut [f64]) -> Result<(), Error> {
         match self.description().has_loops() {
             true => self.evaluate(Function::LegForces, &[q, s, u], &mut [forces]),
-            false => Err(Error::NoFunction(Function::LegForces)),
+            false => Ok(()),
         }
     }
 

@@ -36,8 +36,9 @@ impl Tree<'_> {
         std::iter::successors(Some(other), |at| self.frames[*at].parent).any(|at| at == frame)
     }
 
-    /// Returns `true` if a load on `other` may deflect an elastic element at `frame`: it carries the
-    /// load, or the forces of a loop, of which one end moves with the frame and the other does not.
+    /// Returns `true` if a load on `other` may deflect an elastic element at `frame`: it carries
+    /// the load, or the forces of a loop, of which one end moves with the frame and the other does
+    /// not.
     pub fn is_loaded(self, frame: usize, other: usize) -> bool {
         self.carries(frame, other)
             || self.loops.iter().any(|closed| {

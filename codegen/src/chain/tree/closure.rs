@@ -148,7 +148,8 @@ pub(super) fn rate(
     }
 }
 
-/// Forces and moments `(f, m)` on the frames a, b and c of a loop, at their origins; `None` is `F_0`.
+/// Forces and moments `(f, m)` on the frames a, b and c of a loop, at their origins; `None` is
+/// `F_0`.
 pub(crate) type Wrenches = [(Option<usize>, [Vector; 2]); 3];
 
 /// Returns the wrenches whose power is that of forces λ of the equations, `λ · φ̇`:

@@ -34,4 +34,4 @@ pub(crate) use loops::{ClosedLoops, RealNodes};
 pub(super) use parts::Parts;
 pub(crate) use parts::passive_by_symbol;
 pub(crate) use path::{Path, STEPS};
-pub(crate) use reactions::Reactions;
+pub(crate) use reactions::Reaction;

@@ -10,34 +10,35 @@
 //! ```
 //!
 //! Hence w_i is `(J_ε − J_p φ_p⁻¹ φ_ε)ᵀ F` for a load F and J at its point: passive joints carry
-//! nothing along their motions. `φ_εᵀ λ` is the wrench of forces on the frames of the loops: λ u and
-//! −λ u on the ends of a leg, along its direction u. A leg that is pressed has a positive λ.
+//! nothing along their motions. `φ_εᵀ λ` is the wrench of forces on the frames of the loops: λ u
+//! and −λ u on the ends of a leg, along its direction u. A leg that is pressed has a positive λ.
 
-use super::closure::{self, Wrenches};
+use abbe_spec::Closure;
+
+use super::closure::{Ends, Wrenches, wrenches};
 use super::parts::Parts;
 use crate::graph::{Graph, Node};
 
-/// Forces of all loops, in the axes of `F_0`.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Reactions {
-    /// λ, one per equation of the loops.
+/// Forces of a loop, in the axes of `F_0`.
+pub(crate) struct Reaction {
+    /// λ, one per equation.
     pub(crate) forces: Vec<Node>,
-    /// Forces and moments on the frames of each loop.
-    pub(crate) wrenches: Vec<Wrenches>,
+    /// Forces and moments on its frames.
+    pub(crate) wrenches: Wrenches,
 }
 
-impl Reactions {
-    /// Solves for the forces, given the force or moment of the loads on each passive variable.
-    pub(crate) fn new(graph: &mut Graph, parts: &Parts<'_>, loads: &[Node]) -> Self {
+impl Parts<'_> {
+    /// Returns the forces of each loop, given the force or moment of the loads on each passive
+    /// variable.
+    pub(crate) fn reactions(&self, graph: &mut Graph, loads: &[Node]) -> Vec<Reaction> {
         let opposite: Vec<Node> = loads.iter().map(|load| graph.neg(*load)).collect();
-        let forces = parts.factored.solve_row(graph, &opposite);
-        let mut rest = &forces[..];
-        let mut wrenches = Vec::new();
-        for (ends, closure) in parts.closures() {
-            let (own, others) = rest.split_at(closure.equations());
-            rest = others;
-            wrenches.push(closure::wrenches(graph, ends, closure, own, |frame| *parts.whole.pose(frame)));
-        }
-        Self { forces, wrenches }
+        let mut rest = self.factored.solve_row(graph, &opposite);
+        let reaction = |(ends, closure): (Ends, &Closure)| {
+            let forces: Vec<Node> = rest.drain(..closure.equations()).collect();
+            let pose = |frame| *self.whole.pose(frame);
+            let wrenches = wrenches(graph, ends, closure, &forces, pose);
+            Reaction { forces, wrenches }
+        };
+        self.closures().map(reaction).collect()
     }
 }

@@ -225,9 +225,9 @@ impl SpringModel {
         self.loads.iter().map(work).sum()
     }
 
-    /// Minimizes `½ εᵀ C⁻¹ ε − W` under `φ = 0` by Newton's method on the conditions of a stationary
-    /// point, and returns z and the multipliers of φ. `sign` is that of the loads. Returns `None` for
-    /// a mechanism that is singular, or nearly so.
+    /// Minimizes `½ εᵀ C⁻¹ ε − W` under `φ = 0` by Newton's method on the conditions of a
+    /// stationary point, and returns z and the multipliers of φ. `sign` is that of the loads.
+    /// Returns `None` for a mechanism that is singular, or nearly so.
     fn minimum(&self, sign: f64) -> Option<(Vec<f64>, Vec<f64>)> {
         let (springs, equations) =
             (self.springs.len(), self.equations(&vec![0.0; self.passive + self.springs.len()]).len());
