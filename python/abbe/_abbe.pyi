@@ -230,6 +230,14 @@ class Machine:
         `columns`, not negative. Rows and columns as the rows of `error_jacobian`, in products
         of their units.
         """
+    def leg_forces(self, q: _Joints, *, out: _Array | None = None, **inputs: _Input) -> _Array:
+        """(…, np): forces that close the loops under the loads, to first order, in units N and
+        N·m.
+
+        One for each equation of the loops, in their order; that of a leg is positive if it
+        presses its ends apart. `inputs`: as for `generalized_errors`. Configurations where the
+        loops do not close raise ValueError, and so does a machine without loops.
+        """
     def generalized_errors(self, q: _Joints, *, out: _Array | None = None, **inputs: _Input) -> _Array:
         """(…, n, 6): errors ε of the repeatable sources of the spec: for each frame F_i, in its
         axes, e_x e_y e_z (length unit) e_s e_r e_p (rad).

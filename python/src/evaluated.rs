@@ -134,6 +134,14 @@ methods! {
         covariance(sigma: Squares) = Covariance;
     }
     inputs {
+        /// (…, np): forces that close the loops under the loads, to first order, in units N and
+        /// N·m.
+        ///
+        /// One for each equation of the loops, in their order; that of a leg is positive if it
+        /// presses its ends apart. `inputs`: as for `generalized_errors`. Configurations where the
+        /// loops do not close raise ValueError, and so does a machine without loops.
+        leg_forces = LegForces;
+
         /// (…, n, 6): errors ε of the repeatable sources of the spec: for each frame F_i, in its
         /// axes, e_x e_y e_z (length unit) e_s e_r e_p (rad).
         ///

@@ -22,7 +22,7 @@ def test_every_public_name_is_documented():
 
 FUNCTIONS = {
     "pose", "transforms", "error_jacobian", "joint_jacobian", "parameter_jacobian", "displacement", "covariance", "generalized_errors",
-    "predict", "source_displacements", "real_pose", "passive", "displaced_pose",
+    "predict", "source_displacements", "real_pose", "passive", "displaced_pose", "leg_forces",
 }  # fmt: skip
 
 
@@ -32,7 +32,7 @@ def test_functions_say_shape_frame_rows_and_units():
     for name in sorted(FUNCTIONS | {"inverse"}):
         doc = inspect.getdoc(getattr(abbe.Machine, name))
         assert re.match(r"\((…, )?[A-Za-z0-9, +]+,?\): ", doc), name
-        assert "F_0" in doc or name in ("generalized_errors", "passive"), name
+        assert "F_0" in doc or name in ("generalized_errors", "passive", "leg_forces"), name
         assert re.search(r"[Rr]ows|[Cc]olumns|each frame|for each|joints", doc), name
         assert re.search(r"length unit|coherent unit|units", doc), name
 

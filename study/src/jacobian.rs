@@ -56,9 +56,23 @@ pub struct Report {
     /// Pose of the tool with the repeatable errors, by the exact chain with finite rotations: a
     /// homogeneous matrix, row by row.
     pub real_pose: [[f64; 4]; 4],
+    /// Forces that close the loops under the loads, to first order, one per equation.
+    pub leg_forces: Vec<LegForce>,
     /// The spec, for names and units.
     #[serde(skip)]
     pub spec: Arc<Spec>,
+}
+
+/// Force that closes a loop.
+#[derive(Clone, Debug, Serialize)]
+pub struct LegForce {
+    /// Name of the loop.
+    pub name: String,
+    /// `distance`, or the coordinate along or about which it acts: `x`, `y`, `z`, `rx`, `ry`, `rz`.
+    pub closes: &'static str,
+    /// Force in N, or moment in N·m, on the first frame of the loop; positive if a leg presses its
+    /// ends apart.
+    pub force: f64,
 }
 
 impl Jacobian {
@@ -78,9 +92,11 @@ impl Jacobian {
         let u = sampling::nominal_inputs(description);
         let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
         let mut errors = vec![[0.0; 6]; description.frames.len()];
+        let mut forces = vec![0.0; spec.passive.len()];
         let poses = interpreter
             .error_jacobian(&q, &s, &mut columns)
             .and_then(|_| interpreter.generalized_errors(&q, &s, &u, &mut errors))
+            .and_then(|()| interpreter.leg_forces(&q, &s, &u, &mut forces))
             // The pose computed beside J_e may differ in its last bits; use the one of `pose`.
             .and_then(|()| Ok([interpreter.pose(&q, &s)?, interpreter.real_pose(&q, &s, &u)?]))
             .map_err(|error| {
@@ -88,7 +104,9 @@ impl Jacobian {
                 let at = number::variables(&q, spec);
                 open_loops::not_evaluated(&self.machine.origin, &at, &error, description, (spec, &q, &s))
             })?;
-        finite(&self.machine.origin, Report::new(description, Arc::clone(spec), q, &poses, &columns, &errors))
+        let leg_forces = leg_forces(spec, &forces);
+        let report = Report::new(description, Arc::clone(spec), q, &poses, &columns, &errors);
+        finite(&self.machine.origin, Report { leg_forces, ..report })
     }
 }
 
@@ -118,9 +136,22 @@ impl Report {
             generalized_errors: errors.iter().map(|error| error + 0.0).collect(),
             displacement: std::array::from_fn(|i| terms(i).sum::<f64>() + 0.0),
             real_pose: matrix(real_pose),
+            leg_forces: Vec::new(),
             spec,
         }
     }
+}
+
+/// Names the forces of the loops.
+fn leg_forces(spec: &Spec, forces: &[f64]) -> Vec<LegForce> {
+    let equations = spec.loops.iter().flat_map(|closed| {
+        (0..closed.closure.equations()).map(|i| (closed.name.clone(), closed.closure.coordinate(i)))
+    });
+    // Adding 0 turns −0 into 0.
+    equations
+        .zip(forces)
+        .map(|((name, closes), force)| LegForce { name, closes, force: force + 0.0 })
+        .collect()
 }
 
 /// Returns the names of the columns of `J_e` for this number of frames: `e_x1 … e_p1`, then those

@@ -39,14 +39,20 @@ pub fn frame_twists(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Vec<
             return vec![FrameTwist { frame, velocity: body.velocity, rotation: body.rotation }];
         }
     };
+    let mut twists = transform_twists(graph, spec, symbol);
+    tree::add_lengths(graph, spec, symbol, &mut twists);
+    let at_rest = [graph.zero(); 3];
+    twists.retain(|twist| [twist.velocity, twist.rotation] != [at_rest; 2]);
+    twists
+}
+
+/// Returns the twist of every frame per unit of a symbol in its transform.
+pub(super) fn transform_twists(graph: &mut Graph, spec: &Spec, symbol: Symbol) -> Vec<FrameTwist> {
     let frames = 0..spec.frames.len();
     let mut twists: Vec<FrameTwist> = frames.map(|frame| local_twist(graph, spec, symbol, frame)).collect();
     if let Some(carrier) = twists.get_mut(spec.tool_frame) {
         add_tool(graph, spec, symbol, carrier);
     }
-    tree::add_lengths(graph, spec, symbol, &mut twists);
-    let at_rest = [graph.zero(); 3];
-    twists.retain(|twist| [twist.velocity, twist.rotation] != [at_rest; 2]);
     twists
 }
 

@@ -1,15 +1,17 @@
 //! Deflection of beams and compliances under loads.
 //!
-//! An element carries the loads of the frames behind its own and of its own frame. A beam extends
+//! An element carries the loads of the frames behind its own and of its own frame; among them are
+//! the forces of loops whose frames it does not carry all, see [`Reaction`]. A beam extends
 //! from its end M back to its clamped end. A load of the beam's own frame acts where the load's
 //! point projects onto the beam: beyond M it acts at M, before the clamped end not at all.
 
 use abbe_core::Component;
-use abbe_spec::expr::{Function, Motion, motion};
+use abbe_spec::expr::{Function, Motion, Symbol, motion};
 use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
 
-use super::frame_twist::FrameTwist;
+use super::deviation::transform_twists;
 use super::six::{six, vectors};
+use super::tree::{Parts, Reaction, length_slopes};
 use super::walk::transform;
 use crate::graph::{Frame, Graph, Node, Vector};
 
@@ -24,13 +26,15 @@ pub(super) struct Element<'a> {
 }
 
 /// Loads on the structure, in the axes of one frame B: `F_0`, or that of an element, where each
-/// angle occurs in a wrench only once.
+/// angle occurs in a wrench only once. B is `F_0` if there are loops.
 pub(super) struct Loads<'a> {
     spec: &'a Spec,
     /// Poses of all frames relative to B; of those before an element, any.
     frames: &'a [Frame],
     acting: Vec<Acting>,
     weights: Vec<Weight<'a>>,
+    /// Forces of the loops.
+    reactions: Vec<Reaction>,
 }
 
 /// A force and a moment at a point.
@@ -75,14 +79,34 @@ impl<'a> Loads<'a> {
                 weights.push(Weight { effect, end, axis: beam.axis, length, force });
             }
         }
-        Self { spec, frames, acting, weights }
+        let mut loads = Self { spec, frames, acting, weights, reactions: Vec::new() };
+        if !spec.loops.is_empty() {
+            let passive = (0..spec.passive.len()).map(Symbol::Local);
+            let on_passive: Vec<Node> = passive.map(|symbol| loads.on_symbol(graph, symbol)).collect();
+            let parts = Parts::new(graph, spec);
+            loads.reactions = parts.reactions(graph, &on_passive);
+        }
+        loads
+    }
+
+    /// Returns the forces that close the loops, in N and N·m, one per equation.
+    pub(super) fn of_loops(&self, graph: &mut Graph) -> Vec<Node> {
+        let (mut forces, length) = (Vec::new(), self.spec.length.in_metres());
+        for (closed, reaction) in self.spec.loops.iter().zip(&self.reactions) {
+            for (i, force) in reaction.forces.iter().enumerate() {
+                let unit = if closed.closure.is_angle(i) { length * length } else { length };
+                let unit = graph.constant(unit);
+                forces.push(graph.mul(unit, *force));
+            }
+        }
+        forces
     }
 
     /// Creates a single force at the tool point, in the axes that the frames' poses are given in.
     pub(super) fn at_tool(graph: &mut Graph, spec: &'a Spec, frames: &'a [Frame], force: Vector) -> Self {
         let point = transform(graph, &spec.tool).position;
         let acting = Acting { frame: spec.tool_frame, point, force, moment: [graph.zero(); 3] };
-        Self { spec, frames, acting: vec![acting], weights: Vec::new() }
+        Self { spec, frames, acting: vec![acting], weights: Vec::new(), reactions: Vec::new() }
     }
 
     /// Returns the errors `ε = C w` of a compliance, in its axes.
@@ -158,16 +182,18 @@ impl<'a> Loads<'a> {
 
     /// Returns the moment of the loads about a joint, or the force along it: their power per unit
     /// of the joint's speed, with the twists `(v, ω)` of the frames whose transform has the joint,
-    /// and the wrenches `(f, m)` of all loads at and behind these, at the origins of the frames:
+    /// the wrenches `(f, m)` of all loads at and behind these, at the origins of the frames, and
+    /// the lengths l of legs, whose forces are λ:
     ///
     /// ```text
-    /// Σ_i  v_i · f_i + ω_i · m_i
+    /// Σ_i  v_i · f_i + ω_i · m_i  −  Σ_k  λ_k ∂l_k/∂q
     /// ```
-    pub(super) fn on_joint(&self, graph: &mut Graph, twists: &[FrameTwist]) -> Node {
+    pub(super) fn on_symbol(&self, graph: &mut Graph, symbol: Symbol) -> Node {
         let mut sum = graph.zero();
-        for twist in twists {
-            let at_or_behind = self.acting.iter().filter(|load| self.spec.carries(twist.frame, load.frame));
-            let mut carried: Vec<Acting> = at_or_behind.copied().collect();
+        let at_rest = [[graph.zero(); 3]; 2];
+        let twists = transform_twists(graph, self.spec, symbol);
+        for twist in twists.iter().filter(|twist| [twist.velocity, twist.rotation] != at_rest) {
+            let mut carried = self.at_or_behind(graph, twist.frame);
             let weights = self.weights.iter();
             for weight in weights.filter(|weight| self.spec.carries(twist.frame, weight.effect.frame)) {
                 carried.push(weight.of_last(graph, weight.length));
@@ -179,15 +205,36 @@ impl<'a> Loads<'a> {
                 sum = graph.add(sum, power);
             }
         }
+        let slopes = length_slopes(graph, self.spec, symbol);
+        for (reaction, slope) in self.reactions.iter().zip(slopes) {
+            let power = graph.mul(reaction.forces[0], slope);
+            sum = graph.sub(sum, power);
+        }
         sum
+    }
+
+    /// Returns the loads at a frame and the frames behind it.
+    fn at_or_behind(&self, graph: &mut Graph, frame: usize) -> Vec<Acting> {
+        let (carries, point) = (|other: usize| self.spec.carries(frame, other), [graph.zero(); 3]);
+        let mut carried: Vec<Acting> =
+            self.acting.iter().filter(|load| carries(load.frame)).copied().collect();
+        for Reaction { wrenches, .. } in &self.reactions {
+            let here = |frame: &Option<usize>| frame.is_some_and(carries);
+            // The wrenches of a loop that is carried as a whole add up to zero.
+            if !wrenches.iter().all(|(frame, _)| here(frame)) {
+                for (frame, [force, moment]) in wrenches.iter().copied().filter(|(frame, _)| here(frame)) {
+                    carried.extend(frame.map(|frame| Acting { frame, point, force, moment }));
+                }
+            }
+        }
+        carried
     }
 
     /// Returns the loads at and behind the element's frame, and the weights of all beams of frames
     /// behind it.
     fn carried(&self, graph: &mut Graph, element: &Element<'_>) -> Vec<Acting> {
         let frame = element.effect.frame;
-        let mut carried: Vec<Acting> =
-            self.acting.iter().filter(|load| self.spec.carries(frame, load.frame)).copied().collect();
+        let mut carried = self.at_or_behind(graph, frame);
         let behind = |weight: &&Weight<'_>| {
             weight.effect.frame != frame && self.spec.carries(frame, weight.effect.frame)
         };

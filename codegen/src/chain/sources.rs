@@ -97,6 +97,11 @@ pub(super) fn effects_and_causes(spec: &Spec) -> (Graph, Vec<EffectNode>, Causes
     let g = &mut graph;
     let identity = g.identity();
     let frames = poses(g, spec, 0);
+    if !spec.loops.is_empty() {
+        let loads = Loads::new(g, spec, &frames, &identity.axes);
+        let (effects, causes) = effects_in(g, spec, |_| &loads);
+        return (graph, effects, causes);
+    }
     let effects = spec.enabled_sources().flat_map(|source| &source.effects);
     let mut elastic: BTreeSet<usize> =
         effects.filter(|effect| effect.cause.is_elastic()).map(|effect| effect.frame).collect();
@@ -289,7 +294,10 @@ fn deviation_error<'a>(
     match (&deviation.cause, twists.first()) {
         (DeviationCause::Error(error), _) => graph.lower(error),
         (DeviationCause::Stiffness(stiffness), Some(first)) => {
-            let load = loads(first.frame).on_joint(graph, twists);
+            let load = match deviation.number {
+                ChainNumber::Joint(joint) => loads(first.frame).on_symbol(graph, Symbol::Variable(joint)),
+                _ => graph.zero(),
+            };
             let stiffness = graph.lower(stiffness);
             graph.div(load, stiffness)
         }

@@ -82,6 +82,7 @@ pub(super) fn alternatives(function: Function, model: &Model) -> Vec<Outputs> {
         // In terms of passive variables that `tree` finds.
         Function::Passive => plain(vec![model.loops.iter().flat_map(|tree| tree.passive.clone()).collect()]),
         Function::DisplacedPose => plain(model.loops.iter().map(|tree| pose(&tree.displaced.pose)).collect()),
+        Function::LegForces => plain(vec![model.leg_forces.clone()]),
         Function::Inverse => model
             .inverse
             .iter()

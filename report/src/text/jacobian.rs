@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use abbe_study::jacobian::Report;
+use abbe_study::jacobian::{LegForce, Report};
 use abbe_study::number::{self, unbroken};
 
 use super::{Table, wrapped};
@@ -47,7 +47,21 @@ pub fn jacobian(report: &Report) -> String {
         true => "\nReal pose of the tool, by the exact chain\n",
         false => "\nReal pose of the tool, exact\n",
     };
-    text + &matrix(&report.real_pose)
+    text += &matrix(&report.real_pose);
+    if report.leg_forces.iter().any(|one| one.force != 0.0) {
+        text += "\nForces that close the loops under the loads; a leg that is pressed has a positive one\n";
+        let mut table = Table::new(&["loop", "closes", "force"]);
+        for LegForce { name, closes, force } in &report.leg_forces {
+            let unit = if closes.starts_with('r') { "N m" } else { "N" };
+            table.row(vec![
+                name.clone(),
+                (*closes).to_owned(),
+                format!("{} {unit}", number::fixed(*force, 3)),
+            ]);
+        }
+        text += &table.right(&[2]).to_string();
+    }
+    text
 }
 
 fn matrix(pose: &[[f64; 4]; 4]) -> String {

@@ -94,7 +94,9 @@ macro_rules! checked_functions {
                 results: &mut [&mut [f64]],
             ) -> Result<(), $crate::Error> {
                 match function {
-                    $crate::Function::Passive | $crate::Function::DisplacedPose => {
+                    $crate::Function::Passive
+                    | $crate::Function::DisplacedPose
+                    | $crate::Function::LegForces => {
                         $crate::checked_functions!(@of_loops $($with)?: function, arguments, results)
                     }
                     $crate::Function::Inverse => {

@@ -126,6 +126,16 @@ pub trait Manipulator: Sync {
         }
     }
 
+    /// Computes the forces λ that close the loops under the loads, in N and N·m, one per equation
+    /// of the loops; the force of a leg is positive if it presses its ends apart. Manipulators
+    /// without loops have none.
+    fn leg_forces(&self, q: &[f64], s: &[f64], u: &[f64], forces: &mut [f64]) -> Result<(), Error> {
+        match self.description().has_loops() {
+            true => self.evaluate(Function::LegForces, &[q, s, u], &mut [forces]),
+            false => Ok(()),
+        }
+    }
+
     /// Computes all joint variables that bring the tool point to a pose, in closed form: a row of
     /// `solutions` per solution, in the turns nearest to `q` that the limits permit.
     ///

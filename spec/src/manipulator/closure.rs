@@ -39,6 +39,14 @@ impl Closure {
         }
     }
 
+    /// Returns the name of the coordinate of an equation, or `distance`.
+    pub fn coordinate(&self, equation: usize) -> &'static str {
+        match self {
+            Self::Coordinates(coordinates) => Self::COORDINATES[coordinates[equation]],
+            Self::Distance(_) => "distance",
+        }
+    }
+
     /// Returns `true` if an equation is about an angle, `false` if it is about a length.
     pub fn is_angle(&self, equation: usize) -> bool {
         match self {

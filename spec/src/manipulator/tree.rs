@@ -36,6 +36,18 @@ impl Tree<'_> {
         std::iter::successors(Some(other), |at| self.frames[*at].parent).any(|at| at == frame)
     }
 
+    /// Returns `true` if a load on `other` may deflect an elastic element at `frame`: it carries
+    /// the load, or the forces of a loop, of which one end moves with the frame and the other does
+    /// not.
+    pub fn is_loaded(self, frame: usize, other: usize) -> bool {
+        self.carries(frame, other)
+            || self.loops.iter().any(|closed| {
+                let [first, second] =
+                    closed.frames.map(|end| end.is_some_and(|end| self.carries(frame, end)));
+                first != second
+            })
+    }
+
     /// Returns the frames whose transforms move one end of a loop relative to the other.
     pub fn between(self, closed: &Loop) -> Vec<usize> {
         let [first, second] = closed.frames.map(|frame| self.path(frame));

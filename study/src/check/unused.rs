@@ -14,7 +14,7 @@ pub(super) fn notes(spec: &Spec) -> Vec<String> {
     };
     let carried = |load: &Load| {
         let elastic = elements().map(|effect| effect.frame).chain(joints().filter_map(frame));
-        elastic.into_iter().any(|frame| spec.carries(frame, load.frame))
+        elastic.into_iter().any(|frame| spec.tree().is_loaded(frame, load.frame))
     };
     let idle = spec.loads.iter().filter(|load| !carried(load)).count();
     let used: Vec<Symbol> = expressions(spec).into_iter().flat_map(Expression::symbols).collect();

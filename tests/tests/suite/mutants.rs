@@ -173,7 +173,7 @@ macro_rules! functions {
         fn generated(function: Function, given: &[Counted], results: &mut [Counted]) -> Option<()> {
             match function {
                 $(Function::$function => Evaluate::<lanes::$function>::evaluate_lanes(&Measured, given, results),)+
-                Function::Passive | Function::DisplacedPose | Function::Inverse => None,
+                Function::Passive | Function::DisplacedPose | Function::LegForces | Function::Inverse => None,
             }
         }
     };

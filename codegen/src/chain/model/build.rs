@@ -66,6 +66,7 @@ impl Model {
         let axes = g.identity().axes;
         let loads = Loads::new(g, spec, &frames, &axes);
         let (effects, causes) = sources::effects_in(g, spec, |_| &loads);
+        let leg_forces = loads.of_loops(g);
         let generalized_errors = sources::generalized_errors(g, spec, &effects);
 
         let zero = g.zero();
@@ -111,6 +112,7 @@ impl Model {
             parameter_local_twists,
             inverse: machine.inverse,
             loops: machine.loops,
+            leg_forces,
         }
     }
 }

@@ -79,6 +79,8 @@ pub struct Model {
     /// Newton's steps that close the loops, and the exact poses with errors. Only for a tree of
     /// frames.
     pub(crate) loops: Option<ClosedLoops>,
+    /// Forces that close the loops, in N and N·m, one per equation.
+    pub(crate) leg_forces: Vec<Node>,
 }
 
 impl Model {

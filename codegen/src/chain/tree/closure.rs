@@ -153,6 +153,52 @@ pub(super) fn rate(
     }
 }
 
+/// Forces and moments `(f, m)` on the frames a, b and c of a loop, at their origins; `None` is
+/// `F_0`.
+pub(crate) type Wrenches = [(Option<usize>, [Vector; 2]); 3];
+
+/// Returns the wrenches whose power is that of forces λ of the equations, `λ · φ̇`:
+///
+/// ```text
+/// f_a = −f_b = R_c λ       m_a = (tr W I − Wᵀ) R_c λ / 2       m_b = −(tr W I − W) R_c λ / 2
+/// f_c = 0                  m_c = −m_a − m_b − d × f_a
+/// ```
+///
+/// For a distance `f_a = λ d / |d|`, without moments.
+pub(super) fn wrenches(
+    graph: &mut Graph,
+    ends: Ends,
+    closure: &Closure,
+    forces: &[Node],
+    pose: impl Fn(Option<usize>) -> Frame,
+) -> Wrenches {
+    let [a, b, c] = [ends.first, ends.second, ends.axes].map(pose);
+    let (difference, zero) = (graph.sub_vectors(a.position, b.position), [graph.zero(); 3]);
+    let (force, moments) = match closure {
+        Closure::Coordinates(coordinates) => {
+            let mut all = [graph.zero(); 6];
+            coordinates.iter().zip(forces).for_each(|(coordinate, force)| all[*coordinate] = *force);
+            let half = graph.constant(0.5);
+            let [force, moment] = [0, 3].map(|i| graph.turn(&c.axes, [all[i], all[i + 1], all[i + 2]]));
+            let moment = graph.scale(half, moment);
+            let columns = relative(graph, &a, &b);
+            let transposed = std::array::from_fn(|i| columns.map(|column: Vector| column[i]));
+            let [at_a, minus_b] = [&transposed, &columns].map(|matrix| traced(graph, matrix, moment));
+            let swing = graph.cross(difference, force);
+            let rest = graph.add_vectors(at_a, swing);
+            (force, [at_a, graph.neg_vector(minus_b), graph.sub_vectors(minus_b, rest)])
+        }
+        Closure::Distance(_) => {
+            let square = graph.dot(difference, difference);
+            let distance = graph.sqrt(square);
+            let per_length = graph.div(forces[0], distance);
+            (graph.scale(per_length, difference), [zero; 3])
+        }
+    };
+    let back = graph.neg_vector(force);
+    [(ends.first, [force, moments[0]]), (ends.second, [back, moments[1]]), (ends.axes, [zero, moments[2]])]
+}
+
 /// Returns the columns of `W = R_a R_bᵀ`.
 fn relative(graph: &mut Graph, a: &Frame, b: &Frame) -> [Vector; 3] {
     std::array::from_fn(|column| {

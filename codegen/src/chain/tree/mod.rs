@@ -11,7 +11,8 @@
 //! `triangular` sorts φ_p into irreducible blocks. `system` has the equations of a machine and
 //! Newton's step, `continuation` closes it at home, `path` follows a path from there, and `loops`
 //! has the systems of the nominal machine and with errors. `equations` has φ and φ_p themselves,
-//! and `lengths` converts errors of the lengths of legs to errors of frames.
+//! `lengths` converts errors of the lengths of legs to errors of frames, and `reactions` has the
+//! forces that close the loops of a loaded machine.
 
 mod closure;
 mod continuation;
@@ -22,13 +23,15 @@ mod loops;
 mod model;
 mod parts;
 mod path;
+mod reactions;
 mod system;
 mod triangular;
 mod view;
 
 pub use equations::LoopEquations;
-pub(super) use lengths::add_lengths;
+pub(super) use lengths::{add_lengths, length_slopes};
 pub(crate) use loops::{ClosedLoops, RealNodes};
 pub(super) use parts::Parts;
 pub(crate) use parts::passive_by_symbol;
 pub(crate) use path::{Path, STEPS};
+pub(crate) use reactions::Reaction;

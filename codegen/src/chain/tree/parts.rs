@@ -69,6 +69,11 @@ impl<'s> Parts<'s> {
         residual
     }
 
+    /// Iterates over the loops: their frames and conditions.
+    pub(super) fn closures(&self) -> impl Iterator<Item = (Ends, &'s Closure)> {
+        self.loops.iter().map(|part| (part.ends, part.closure))
+    }
+
     /// Returns numbers that are positive unless a rotation closes upside down.
     pub(super) fn upright(&self, graph: &mut Graph) -> Vec<Node> {
         let mut upright = Vec::new();

@@ -32,11 +32,12 @@ impl FrameLoops<'_> {
         let model = self.model;
         let mut draft = RoutineBuilder::new(self, arrays);
         match function {
-            // The last three are no functions of long chains.
+            // The last four are no functions of long chains.
             Function::Effects
             | Function::GeneralizedErrors
             | Function::Passive
             | Function::DisplacedPose
+            | Function::LegForces
             | Function::Inverse => return None,
             Function::Transforms => draft.transforms(),
             Function::Pose => draft.pose(),

@@ -80,6 +80,10 @@ macro_rules! function_of_loops_table {
 
             DisplacedPose = displaced_pose(q, s, errors) -> (pose):
                 "Exact pose of the tool point in `F_0` with given errors of the frames, all loops closed.";
+
+            LegForces = leg_forces(q, s, u) -> (leg_forces):
+                "Forces by which the loops close under the loads, to first order. The force of a leg is positive if it presses its \
+                 ends apart.";
         }
     };
 }
@@ -185,6 +189,16 @@ macro_rules! function_array {
             [f64; PASSIVE],
             "length unit, rad",
             "Passive variables, in the order of the frames that declare them."
+        )
+    };
+    (leg_forces: $($then:tt)+) => {
+        $($then)+!(
+            "leg_forces",
+            Passive,
+            [f64; PASSIVE],
+            "N, N m",
+            "One per equation of the loops, in their order: a leg's force, or the force along or moment about the axis of a \
+             coordinate."
         )
     };
     (s: $($then:tt)+) => {

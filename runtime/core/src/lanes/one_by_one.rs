@@ -115,6 +115,11 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
                     third.chunks_exact(6).map(|six| core::array::from_fn(|i| six[i])).collect();
                 flat(&[manipulator.displaced_pose(q, s, &errors)?])
             }
+            Function::LegForces => {
+                let mut forces = vec![0.0; description.passive().count()];
+                manipulator.leg_forces(q, s, third, &mut forces)?;
+                forces
+            }
             Function::Inverse => {
                 let target = Pose(core::array::from_fn(|i| core::array::from_fn(|j| third[3 * i + j])));
                 let mut solutions = vec![0.0; description.solutions * q.len()];

@@ -190,7 +190,7 @@ crate::tables! {
         "parameter": Text("name of a parameter"), "-", "none", "Parameter with the `error`, wherever it occurs in the chain";
         "error": EXPRESSION, "as the joint or the parameter", "required with `parameter`; with `joint`, this or `stiffness`", "Actual minus nominal value";
         "stiffness": Number("expression, positive"), "none: give one", "rigid",
-            "Stiffness of the `joint`, which deviates by the moment of the loads about it (of a slide, the force along it), divided by the stiffness";
+            "Stiffness of the `joint`, which deviates by the moment of the loads about it (of a slide or leg, the force along it, as in `\"20 N/um\"`), divided by the stiffness";
         "moment": EXPRESSION, "none: give one", "that of the loads",
             "Measured moment (of a slide, force) on an elastic `joint`, for example an input that follows a torque sensor";
         "dh": Table("[source.dh]"), "-", "none", "Errors of the Denavit-Hartenberg numbers of the `frame`";

@@ -148,8 +148,9 @@ pub(super) fn check_loaded(
             _ => None,
         });
         for (frame, span) in elements.chain(elastic) {
-            let load = loads.iter().any(|load| tree.carries(frame, load.frame));
-            if !load && !effects().any(|other| tree.carries(frame, other.frame) && weight(other).is_some()) {
+            let load = loads.iter().any(|load| tree.is_loaded(frame, load.frame));
+            if !load && !effects().any(|other| tree.is_loaded(frame, other.frame) && weight(other).is_some())
+            {
                 let carried = if tree.is_serial() { "a later one" } else { "one that hangs on it" };
                 document.mistake(
                     Diagnostic::new(span.clone(), format!("no load acts on the source \"{}\"", source.name))

@@ -2,7 +2,7 @@
 
 /// Phrases of sentences, and the unit that they say; `1` for numbers without one. The first that
 /// occurs decides.
-const PHRASES: [(&str, &str); 46] = [
+const PHRASES: [(&str, &str); 47] = [
     ("in the squared length unit", "length unit²"),
     ("in pixels and 1", "px, 1"),
     ("in products of these units", "products of the units"),
@@ -24,6 +24,7 @@ const PHRASES: [(&str, &str); 46] = [
     ("in N/m for a stiffness", "N/m, or m and rad"),
     ("in units of the uncertainty", "1"),
     ("in N/m", "N/m"),
+    ("in N, or moment in N·m", "N or N·m"),
     ("in the length unit", "length unit"),
     ("in the spec's length unit", "length unit"),
     ("in the unit of length", "length unit"),

@@ -11,6 +11,7 @@ use abbe_tests::specs;
 mod closed;
 mod closed_forms;
 mod random;
+mod statics;
 
 fn interpreter(text: &str) -> Interpreter {
     Interpreter::new(Spec::parse("machine.toml", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
@@ -137,6 +138,12 @@ fn generated_code_finds_passive_variables() {
         let real = linkage::displaced_pose(&[q[0], q[1], q[2]], &parameters, &errors).unwrap();
         let expected = machine.displaced_pose(&q, &parameters.to_array(), &errors).unwrap();
         assert_close(real.0.as_flattened(), expected.0.as_flattened(), 500.0);
+        let mut expected = [0.0; 3];
+        machine.leg_forces(&q, &parameters.to_array(), &[15.0e3], &mut expected).unwrap();
+        let inputs = linkage::Inputs { force: 15.0e3, ..linkage::Inputs::NOMINAL };
+        let found = linkage::leg_forces(&[q[0], q[1], q[2]], &parameters, &inputs).unwrap();
+        assert_close(&found, &expected, 100.0);
+        assert!(found.iter().all(|force| force.abs() > 1e-3), "{found:?}");
     }
     // The rod cannot reach the plate.
     let too_far = linkage::Parameters { rod: 10.0, ..parameters };
