@@ -182,8 +182,8 @@ impl Mechanism {
     }
 }
 
-/// Returns `true` if a mechanism in metres closes around home, and errors and joints have effects of
-/// their order there.
+/// Returns `true` if a mechanism in metres closes around home, and errors and joints have effects
+/// of their order there.
 pub fn is_regular(machine: &dyn Manipulator) -> bool {
     let description = machine.description();
     let home: Vec<f64> = description.variables.iter().map(|variable| variable.home).collect();

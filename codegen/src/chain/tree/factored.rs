@@ -25,8 +25,8 @@ struct FactoredBlock {
     /// Reciprocals of the diagonal of R.
     reciprocals: Vec<Node>,
     determinant: Node,
-    /// Product of the squares of the lengths of the columns, at least the square of the determinant
-    /// (Hadamard).
+    /// Product of the squares of the lengths of the whole columns, at least the square of the
+    /// determinant (Hadamard).
     bound: Node,
 }
 
@@ -96,16 +96,24 @@ impl FactoredBlock {
     fn new(graph: &mut Graph, all: &[Vec<Node>], units: &[f64], block: Block) -> Self {
         let least = block.rows.iter().map(|row| units[*row]).fold(f64::INFINITY, f64::min);
         // Powers of two round nothing.
-        let scale = |row: &usize| graph.constant((least / units[*row]).log2().round().exp2());
-        let scales: Vec<Node> = block.rows.iter().map(scale).collect();
+        let scale = |graph: &mut Graph, row: usize| {
+            let scale: f64 = least / units[row];
+            graph.constant(scale.log2().round().exp2())
+        };
+        let scales: Vec<Node> = block.rows.iter().map(|row| scale(graph, *row)).collect();
         let mut columns: Vec<Vec<Node>> = Vec::new();
         for column in &block.columns {
             let entries = block.rows.iter().map(|row| all[*column][*row]);
             columns.push(scales.iter().zip(entries).map(|(scale, entry)| graph.mul(*scale, entry)).collect());
         }
         let (zero, one) = (graph.zero(), graph.constant(1.0));
-        let bound = columns.iter().fold(one, |bound, column| {
-            let square = dot(graph, column, column);
+        let bound = block.columns.iter().fold(one, |bound, column| {
+            let scaled = (0..).zip(&all[*column]).map(|(row, entry)| {
+                let scale = scale(graph, row);
+                graph.mul(scale, *entry)
+            });
+            let scaled: Vec<Node> = scaled.collect();
+            let square = dot(graph, &scaled, &scaled);
             graph.mul(bound, square)
         });
         let (mut reflections, mut reciprocals, mut determinant) = (Vec::new(), Vec::new(), one);

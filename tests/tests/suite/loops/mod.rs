@@ -85,8 +85,8 @@ fn assert_close(found: &[f64], expected: &[f64], scale: f64) {
 }
 
 /// A platform that six passive joints move freely, on one, two and three coordinates of balls that
-/// are fixed to it: the axes of these coordinates move with the platform, but not with the errors of
-/// the balls.
+/// are fixed to it: the axes of these coordinates move with the platform, but not with the errors
+/// of the balls.
 #[test]
 fn errors_of_balls_in_grooves_obey_the_laws() {
     let mut text = "[manipulator]\nname = \"coupling\"\nlength = \"mm\"\n".to_owned();

@@ -32,8 +32,8 @@ fn laws_hold_for_random_mechanisms() {
     assert!(held.iter().all(|held| *held > 0) && singular < 100, "{held:?} {singular}");
 }
 
-/// A mechanism whose passive joints can move by themselves at home has no mode there, and is refused
-/// everywhere; its determinant is a rounding error of either sign.
+/// A mechanism whose passive joints can move by themselves at home has no mode there, and is
+/// refused everywhere; its determinant is a rounding error of either sign.
 #[test]
 fn mechanisms_that_are_singular_at_home_are_refused() {
     let machine = interpreter(&Mechanism::in_millimetres(25).text);
