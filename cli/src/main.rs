@@ -2,8 +2,8 @@
 //!
 //! Each command has one module: its arguments, which `clap` parses, and `run`, which turns them
 //! into a job of `abbe_study`, and the report into text (by `abbe_report`), JSON and files. Results
-//! go to stdout, all other messages to stderr. The exit status is 0, 1 if a check failed, 2 for wrong
-//! usage or input, and 128 + n after signal n.
+//! go to stdout, all other messages to stderr. The exit status is 0, 1 if a check failed, 2 for
+//! wrong usage or input, and 128 + n after signal n.
 
 #[macro_use]
 mod arguments;
