@@ -2,6 +2,7 @@
 
 use abbe_spec::expr::Function;
 
+use super::system::Units;
 use super::triangular::{Block, blocks};
 use crate::graph::{Graph, Node};
 
@@ -25,9 +26,8 @@ struct FactoredBlock {
     /// Reciprocals of the diagonal of R.
     reciprocals: Vec<Node>,
     determinant: Node,
-    /// Product of the squares of the lengths of the whole columns, at least the square of the
-    /// determinant (Hadamard).
-    bound: Node,
+    /// Unit of the determinant.
+    unit: f64,
 }
 
 /// The reflection `H = I − β v vᵀ` of the entries from its index on.
@@ -37,8 +37,8 @@ struct Reflection {
 }
 
 impl Factored {
-    /// Factors a matrix given by columns; `units` are those of its rows.
-    pub(super) fn new(graph: &mut Graph, columns: Vec<Vec<Node>>, units: &[f64]) -> Self {
+    /// Factors `φ_p`, given by columns.
+    pub(super) fn new(graph: &mut Graph, columns: Vec<Vec<Node>>, units: &Units) -> Self {
         let zero = graph.zero();
         let blocks = blocks(columns.len(), |row, column| columns[column][row] != zero);
         let blocks =
@@ -46,9 +46,9 @@ impl Factored {
         Self { columns, blocks }
     }
 
-    /// Returns the determinant of each block on the diagonal, and a bound of its square.
-    pub(super) fn determinants(&self) -> impl Iterator<Item = [Node; 2]> {
-        self.blocks.iter().map(|factored| [factored.determinant, factored.bound])
+    /// Returns the determinant of each block on the diagonal, and its unit.
+    pub(super) fn determinants(&self) -> impl Iterator<Item = (Node, f64)> {
+        self.blocks.iter().map(|factored| (factored.determinant, factored.unit))
     }
 
     /// Returns the solution x of `A x = b`: `A_bb x_b = b_b − Σ A_bc x_c` over the blocks c before
@@ -93,29 +93,19 @@ impl FactoredBlock {
     /// ```
     ///
     /// Each reflection changes the sign of the determinant.
-    fn new(graph: &mut Graph, all: &[Vec<Node>], units: &[f64], block: Block) -> Self {
-        let least = block.rows.iter().map(|row| units[*row]).fold(f64::INFINITY, f64::min);
+    fn new(graph: &mut Graph, all: &[Vec<Node>], units: &Units, block: Block) -> Self {
+        let least = block.rows.iter().map(|row| units.equations[*row]).fold(f64::INFINITY, f64::min);
         // Powers of two round nothing.
-        let scale = |graph: &mut Graph, row: usize| {
-            let scale: f64 = least / units[row];
-            graph.constant(scale.log2().round().exp2())
-        };
-        let scales: Vec<Node> = block.rows.iter().map(|row| scale(graph, *row)).collect();
+        let scale = |row: &usize| graph.constant((least / units.equations[*row]).log2().round().exp2());
+        let scales: Vec<Node> = block.rows.iter().map(scale).collect();
         let mut columns: Vec<Vec<Node>> = Vec::new();
         for column in &block.columns {
             let entries = block.rows.iter().map(|row| all[*column][*row]);
             columns.push(scales.iter().zip(entries).map(|(scale, entry)| graph.mul(*scale, entry)).collect());
         }
         let (zero, one) = (graph.zero(), graph.constant(1.0));
-        let bound = block.columns.iter().fold(one, |bound, column| {
-            let scaled = (0..).zip(&all[*column]).map(|(row, entry)| {
-                let scale = scale(graph, row);
-                graph.mul(scale, *entry)
-            });
-            let scaled: Vec<Node> = scaled.collect();
-            let square = dot(graph, &scaled, &scaled);
-            graph.mul(bound, square)
-        });
+        let per_column = block.columns.iter().map(|column| units.passive[*column] / least);
+        let unit = 1.0 / per_column.product::<f64>();
         let (mut reflections, mut reciprocals, mut determinant) = (Vec::new(), Vec::new(), one);
         for k in 0..columns.len() {
             let mut direction = columns[k][k..].to_vec();
@@ -137,7 +127,7 @@ impl FactoredBlock {
             reflections.push(reflection);
         }
         let upper = (0..).zip(columns).map(|(k, column)| column[..k].to_vec()).collect();
-        Self { block, scales, reflections, upper, reciprocals, determinant, bound }
+        Self { block, scales, reflections, upper, reciprocals, determinant, unit }
     }
 
     /// Returns `x = R⁻¹ Qᵀ S b`.

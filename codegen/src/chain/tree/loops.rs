@@ -164,7 +164,7 @@ impl RealNodes {
             upright.extend(closure::upright(graph, ends, &closed.closure, pose));
         }
         let columns = (0..spec.passive.len()).map(|i| graph.diff_all(&residual, Symbol::Local(i))).collect();
-        let factored = Factored::new(graph, columns, &units.equations);
+        let factored = Factored::new(graph, columns, units);
         let home = at_home(spec, passive_home);
         let system = LoopSystem::new(graph, [residual, upright], &factored, home);
         Self { errors, system, pose: poses[poses.len() - 1] }

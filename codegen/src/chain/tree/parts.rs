@@ -43,12 +43,12 @@ impl<'s> Parts<'s> {
             let view = View::new(graph, spec, ends.root(spec));
             loops.push(Part { ends, closure: &closed.closure, length, view });
         }
-        let factored = Factored::new(graph, Vec::new(), &[]);
+        let units = Units::new(spec, graph);
+        let factored = Factored::new(graph, Vec::new(), &units);
         let free = free_frames(spec);
         let mut parts = Self { whole, loops, free, factored, eliminated: vec![Vec::new(); 6] };
         let columns = parts.derivatives(graph, spec);
-        let units = Units::new(spec, graph);
-        parts.factored = Factored::new(graph, columns, &units.equations);
+        parts.factored = Factored::new(graph, columns, &units);
         let passive = (0..spec.passive.len()).map(Symbol::Local);
         let tool: Vec<[Node; 6]> = passive.map(|symbol| parts.tool_by_symbol(graph, symbol)).collect();
         parts.eliminated = (0..6)

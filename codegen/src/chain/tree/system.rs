@@ -8,8 +8,8 @@ use super::factored::Factored;
 use crate::chain::transform;
 use crate::graph::{Graph, Node};
 
-/// Determinants that are zero, relative to the product of the lengths of the columns.
-const SINGULAR: f64 = 1e-12;
+/// Largest determinant that counts as zero, relative to its unit.
+const SINGULAR: f64 = 1e-14;
 
 /// Equations φ of all loops of a machine. Passive variables are local symbols, from 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,11 +33,11 @@ impl LoopSystem {
         home: impl Fn(Symbol) -> f64,
     ) -> Self {
         let step = factored.solve(graph, &residual);
-        let determinants: Vec<[Node; 2]> = factored.determinants().collect();
-        let at_home = graph.evaluate(determinants.as_flattened(), home);
+        let (determinants, units): (Vec<Node>, Vec<f64>) = factored.determinants().unzip();
+        let at_home = graph.evaluate(&determinants, home);
         let mut signed = Vec::new();
-        for ([determinant, _], at_home) in determinants.into_iter().zip(at_home.chunks_exact(2)) {
-            signed.push(match (at_home[0].abs() > SINGULAR * at_home[1].sqrt(), at_home[0] < 0.0) {
+        for ((determinant, unit), at_home) in determinants.into_iter().zip(units).zip(at_home) {
+            signed.push(match (at_home.abs() > SINGULAR * unit, at_home < 0.0) {
                 (true, true) => graph.neg(determinant),
                 (true, false) => determinant,
                 // Without a sign at home there is no mode.

@@ -19,7 +19,8 @@ fn solutions_satisfy_the_equations() {
         .collect();
     let right: Vec<Node> = (0..5).map(|i| g.symbol(Symbol::Parameter(i))).collect();
     let unit = |i: usize| UNITS[i % 5];
-    let factored = Factored::new(g, columns.clone(), &UNITS);
+    let units = Units { equations: UNITS.to_vec(), passive: vec![1.0; 5], variables: Vec::new() };
+    let factored = Factored::new(g, columns.clone(), &units);
     let (x, y) = (factored.solve(g, &right), factored.solve_row(g, &right));
     let rows: Vec<Vec<Node>> = (0..5).map(|i| columns.iter().map(|column| column[i]).collect()).collect();
     let mut residuals: Vec<Node> = Vec::new();
