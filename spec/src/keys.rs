@@ -101,8 +101,6 @@ impl Keys {
     }
 }
 
-impl Key {}
-
 impl Value {
     /// Returns the kind of value as users read it.
     pub fn phrase(&self) -> String {

@@ -18,6 +18,8 @@ pub enum Template {
     Gantry,
     /// Three linear axes with a swivel head.
     FiveAxisMill,
+    /// Platform on six legs.
+    Hexapod,
 }
 
 impl Template {
@@ -27,6 +29,7 @@ impl Template {
         (Self::Scara, "scara", "two arms, a stroke, and a shaft that turns"),
         (Self::Gantry, "gantry", "three linear axes"),
         (Self::FiveAxisMill, "five-axis-mill", "three linear axes that carry a swivel head"),
+        (Self::Hexapod, "hexapod", "platform on six legs that extend"),
     ]);
 
     /// Returns the text of the template.
@@ -36,6 +39,7 @@ impl Template {
             Self::Scara => include_str!("../templates/scara.toml"),
             Self::Gantry => include_str!("../templates/gantry.toml"),
             Self::FiveAxisMill => include_str!("../templates/five-axis-mill.toml"),
+            Self::Hexapod => include_str!("../templates/hexapod.toml"),
         }
     }
 
