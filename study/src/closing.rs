@@ -54,14 +54,6 @@ impl<'a> Closing<'a> {
         self.units.derivatives(&self.evaluate(&self.equations.derivatives.concat(), passive))
     }
 
-    /// Returns Newton's step at given passive variables, in the length unit and rad, and its size
-    /// without units; `None` if `φ_p` is singular.
-    pub(crate) fn step(&self, passive: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let step = self.derivatives(passive).lu().solve(&self.scaled(passive))?;
-        let given = step.iter().zip(&self.units.columns).map(|(step, unit)| step * unit);
-        Some((given.collect(), step.amax()))
-    }
-
     fn evaluate(&self, nodes: &[abbe_codegen::graph::Node], passive: &[f64]) -> Vec<f64> {
         self.equations.graph.evaluate(nodes, |symbol| match symbol {
             Symbol::Local(i) => passive[i],

@@ -1,18 +1,16 @@
 //! Words about loops that do not close: which one, how far it is open, and where the path from home
 //! ended.
 
-use abbe::{Description, Error, VariableKind};
+use abbe::{Description, Error, Manipulator, VariableKind};
+use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::{Spec, mistake};
 
 use crate::closing::Closing;
 use crate::number;
 
-/// Smallest step of the share of the path.
-const SMALLEST: f64 = 1e-6;
-
-/// Largest change of the passive variables in a step, in rad or arm lengths.
-const FARTHEST: f64 = 0.1;
+/// Number of halvings that find where the path ends.
+const HALVINGS: i32 = 20;
 
 /// Largest equation of loops that close, without a unit.
 const CLOSED: f64 = 1e-10;
@@ -44,24 +42,34 @@ pub fn open_loops(spec: &Spec, q: &[f64], s: &[f64]) -> Option<String> {
     if spec.loops.is_empty() || q.len() != home.len() || s.len() != nominal.len() {
         return None;
     }
+    let mut free = spec.clone();
+    free.passive.iter_mut().for_each(|variable| variable.limits = [f64::NEG_INFINITY, f64::INFINITY]);
+    let machine = Interpreter::new(free);
     let mut closing = Closing::new(spec, &home, &nominal);
-    let mut passive = closing.nearest(&closing.home());
-    if !is_closed(&closing, &passive) {
-        return Some(format!("the loops do not close at home: {}", open_loop(spec, &closing, &passive)));
-    }
+    let mut passive = closing.home();
     let along = |from: &[f64], to: &[f64], share: f64| -> Vec<f64> {
         from.iter().zip(to).map(|(from, to)| from + share * (to - from)).collect()
     };
-    let (mut share, mut step) = (0.0_f64, 0.25_f64);
-    while share < 1.0 && step > SMALLEST {
-        let next = (share + step).min(1.0);
-        (closing.q, closing.s) = (along(&home, q, next), along(&nominal, s, next));
-        match closed_from(&closing, &passive) {
-            Some(found) => (passive, share, step) = (found, next, 1.5 * step),
-            None => step /= 2.0,
-        }
+    let closes = |share: f64, passive: &mut [f64]| {
+        machine.passive(&along(&home, q, share), &along(&nominal, s, share), passive).is_ok()
+    };
+    if !closes(0.0, &mut passive) {
+        let nearest = closing.nearest(&closing.home());
+        return Some(match is_closed(&closing, &nearest) {
+            true => "at home the passive joints can move by themselves, or close the loops only far away"
+                .to_owned(),
+            false => format!("the loops do not close at home: {}", open_loop(spec, &closing, &nearest)),
+        });
     }
-    if share < 1.0 {
+    if !closes(1.0, &mut passive) {
+        let mut share = 0.0;
+        for halving in 1..=HALVINGS {
+            let further = share + 0.5_f64.powi(halving);
+            if closes(further, &mut passive) {
+                share = further;
+            }
+        }
+        closes(share, &mut passive);
         let end = number::variables(&along(&home, q, share), spec);
         (closing.q, closing.s) = (q.to_vec(), s.to_vec());
         let nearest = closing.nearest(&passive);
@@ -87,23 +95,6 @@ pub fn open_loops(spec: &Spec, q: &[f64], s: &[f64]) -> Option<String> {
             show(*value)
         )
     })
-}
-
-/// Returns the passive variables in the mode of those given, which are near; `None` without them.
-fn closed_from(closing: &Closing<'_>, from: &[f64]) -> Option<Vec<f64>> {
-    let sign = closing.derivatives(from).determinant().signum();
-    let (mut passive, mut moved) = (from.to_vec(), 0.0);
-    for _ in 0..8 {
-        let (step, size) = closing.step(&passive)?;
-        passive.iter_mut().zip(&step).for_each(|(value, step)| *value -= step);
-        moved += size;
-        let is_near = moved < FARTHEST;
-        if !is_near {
-            return None;
-        }
-    }
-    let is_same = closing.derivatives(&passive).determinant().signum() == sign;
-    (is_same && is_closed(closing, &passive)).then_some(passive)
 }
 
 fn is_closed(closing: &Closing<'_>, passive: &[f64]) -> bool {
