@@ -2,7 +2,7 @@
 
 use abbe_spec::Spec;
 
-use super::system::{Units, at_home};
+use super::units::{Units, at_home};
 use crate::graph::{Graph, Node};
 
 /// Largest number of Newton's steps at home.

@@ -2,8 +2,8 @@
 
 use abbe_spec::expr::Function;
 
-use super::system::Units;
 use super::triangular::{Block, blocks};
+use super::units::Units;
 use crate::graph::{Graph, Node};
 
 /// A square matrix A, factored block by block: its rows and columns are sorted such that it is

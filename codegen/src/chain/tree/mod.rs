@@ -26,6 +26,7 @@ mod path;
 mod reactions;
 mod system;
 mod triangular;
+mod units;
 mod view;
 
 pub use equations::LoopEquations;

@@ -6,7 +6,7 @@ use abbe_spec::{Closure, Factor, Spec};
 
 use super::closure::{self, Ends};
 use super::factored::{Factored, dot};
-use super::system::Units;
+use super::units::Units;
 use super::view::{Motion, View};
 use crate::graph::{Graph, Node, Vector};
 
