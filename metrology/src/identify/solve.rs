@@ -115,7 +115,7 @@ pub(super) fn solve<'a>(
     if prior != settings.prior {
         let why = match settings.prior {
             Prior::Auto => "chosen by cross-validation",
-            _ => "the largest with which the iterations converge",
+            _ => "the largest of those tried with which the iterations converge",
         };
         solved.notes.push(format!(
             "note: prior standard deviation of the errors: {} % of the length of the arm, {why}",

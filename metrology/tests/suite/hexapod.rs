@@ -228,7 +228,7 @@ fn rows_that_do_not_close_are_listed() {
 }
 
 /// The iterations converge with noise, from poses and from points alone, whose base and tool are
-/// unknown: a long valley of the cost is shortened by a smaller prior, and the report says so.
+/// unknown: a long valley of the cost is shortened by a smaller prior.
 #[test]
 fn noisy_platforms_are_identified() {
     for (is_pose, count) in [(true, 30), (true, 150), (false, 30), (false, 150)] {

@@ -26,8 +26,8 @@ struct FactoredBlock {
     /// Reciprocals of the diagonal of R.
     reciprocals: Vec<Node>,
     determinant: Node,
-    /// Unit of the determinant.
-    unit: f64,
+    /// Diagonal of R, each entry with its unit.
+    pivots: Vec<(Node, f64)>,
 }
 
 /// The reflection `H = I − β v vᵀ` of the entries from its index on.
@@ -46,9 +46,11 @@ impl Factored {
         Self { columns, blocks }
     }
 
-    /// Returns the determinant of each block on the diagonal, and its unit.
-    pub(super) fn determinants(&self) -> impl Iterator<Item = (Node, f64)> {
-        self.blocks.iter().map(|factored| (factored.determinant, factored.unit))
+    /// Returns the determinant of each block on the diagonal, and its factors with their units: one
+    /// of them is zero where the block is singular. Their product says less: it is small, too,
+    /// where many joints are short against their loops.
+    pub(super) fn determinants(&self) -> impl Iterator<Item = (Node, &[(Node, f64)])> {
+        self.blocks.iter().map(|factored| (factored.determinant, &factored.pivots[..]))
     }
 
     /// Returns the solution x of `A x = b`: `A_bb x_b = b_b − Σ A_bc x_c` over the blocks c before
@@ -104,9 +106,8 @@ impl FactoredBlock {
             columns.push(scales.iter().zip(entries).map(|(scale, entry)| graph.mul(*scale, entry)).collect());
         }
         let (zero, one) = (graph.zero(), graph.constant(1.0));
-        let per_column = block.columns.iter().map(|column| units.passive[*column] / least);
-        let unit = 1.0 / per_column.product::<f64>();
-        let (mut reflections, mut reciprocals, mut determinant) = (Vec::new(), Vec::new(), one);
+        let (mut reflections, mut reciprocals, mut pivots, mut determinant) =
+            (Vec::new(), Vec::new(), Vec::new(), one);
         for k in 0..columns.len() {
             let mut direction = columns[k][k..].to_vec();
             let reflection = direction[1..].iter().any(|entry| *entry != zero).then(|| {
@@ -122,12 +123,13 @@ impl FactoredBlock {
                 columns[k + 1..].iter_mut().for_each(|column| reflection.apply(graph, &mut column[k..]));
                 determinant = graph.neg(determinant);
             }
+            pivots.push((columns[k][k], least / units.passive[block.columns[k]]));
             determinant = graph.mul(determinant, columns[k][k]);
             reciprocals.push(graph.div(one, columns[k][k]));
             reflections.push(reflection);
         }
         let upper = (0..).zip(columns).map(|(k, column)| column[..k].to_vec()).collect();
-        Self { block, scales, reflections, upper, reciprocals, determinant, unit }
+        Self { block, scales, reflections, upper, reciprocals, determinant, pivots }
     }
 
     /// Returns `x = R⁻¹ Qᵀ S b`.

@@ -5,7 +5,7 @@ use abbe_spec::expr::Symbol;
 use super::factored::Factored;
 use crate::graph::{Graph, Node};
 
-/// Largest determinant that counts as zero, relative to its unit.
+/// Largest factor of a determinant that counts as zero, relative to its unit.
 const SINGULAR: f64 = 1e-14;
 
 /// Equations φ of all loops of a machine. Passive variables are local symbols, from 0.
@@ -30,18 +30,18 @@ impl LoopSystem {
         home: impl Fn(Symbol) -> f64,
     ) -> Self {
         let step = factored.solve(graph, &residual);
-        let (determinants, units): (Vec<Node>, Vec<f64>) = factored.determinants().unzip();
-        let at_home = graph.evaluate(&determinants, home);
-        let mut signed = Vec::new();
-        for ((determinant, unit), at_home) in determinants.into_iter().zip(units).zip(at_home) {
-            signed.push(match (at_home.abs() > SINGULAR * unit, at_home < 0.0) {
+        let mut determinants = Vec::new();
+        for (determinant, pivots) in factored.determinants() {
+            let nodes: Vec<Node> = pivots.iter().map(|(pivot, _)| *pivot).chain([determinant]).collect();
+            let at_home = graph.evaluate(&nodes, &home);
+            let is_regular = pivots.iter().zip(&at_home).all(|((_, unit), at)| at.abs() > SINGULAR * unit);
+            determinants.push(match (is_regular, at_home[pivots.len()] < 0.0) {
                 (true, true) => graph.neg(determinant),
                 (true, false) => determinant,
                 // Without a sign at home there is no mode.
                 (false, _) => graph.constant(-1.0),
             });
         }
-        let determinants = signed;
         Self { residual, upright, step, determinants }
     }
 

@@ -40,3 +40,22 @@ fn solutions_satisfy_the_equations() {
         assert!(residual.abs() < 1e-13, "{residual}");
     }
 }
+
+/// A block is singular where a factor of its determinant is zero, not where the determinant is
+/// small: six joints that are a thousandth of their loop make it 1e-18.
+#[test]
+fn short_joints_are_not_singular() {
+    let units = Units { equations: vec![1.0; 6], passive: vec![1.0; 6], variables: Vec::new() };
+    let entry = |i: usize, j: usize| 1e-3 * (1.3 * ((i + 1) * (j + 1)) as f64).sin();
+    for (last, is_singular) in [(5, false), (4, true)] {
+        let mut graph = Graph::new();
+        let g = &mut graph;
+        let column = |g: &mut Graph, j: usize| (0..6).map(|i| g.constant(entry(i, j))).collect::<Vec<_>>();
+        let columns = [0, 1, 2, 3, 4, last].map(|j| column(g, j)).to_vec();
+        let factored = Factored::new(g, columns, &units);
+        let nodes: Vec<Node> =
+            factored.determinants().flat_map(|(_, pivots)| pivots).map(|(p, _)| *p).collect();
+        let least = graph.evaluate(&nodes, |_| f64::NAN).into_iter().map(f64::abs).reduce(f64::min);
+        assert_eq!(least.unwrap() < 1e-14, is_singular, "{least:?}");
+    }
+}
