@@ -33,8 +33,9 @@ pub fn limits(
     moving: &[Moving],
     fixed: &dyn Fn(Symbol) -> f64,
 ) -> Limits {
-    let mut size =
-        |magnitude: &Magnitude| largest(graph, magnitude, moving, fixed, &EFFORT, &mut |_| true).certified;
+    let mut size = |magnitude: &Magnitude| {
+        largest(graph, magnitude, &[], moving, fixed, &EFFORT, &mut |_| true).certified
+    };
     // Maximum distance of the tool point from each frame, last frame first.
     let mut reach = 0.0;
     let mut levers: Vec<f64> = Vec::with_capacity(apart.links.len());

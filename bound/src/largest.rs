@@ -1,6 +1,6 @@
 //! The largest value of a node over a box.
 
-use abbe_codegen::chain::{DIRECTION, Magnitude};
+use abbe_codegen::chain::{DIRECTION, Implicit, Magnitude};
 use abbe_codegen::graph::{Graph, Node};
 use abbe_spec::expr::Symbol;
 
@@ -12,6 +12,7 @@ use crate::period;
 use crate::problem::Problem;
 use crate::search::{Bound, Search};
 use crate::tape::Tape;
+use crate::unknowns::Unknowns;
 
 /// Bounds the largest value of a nonnegative node over the box of the moving names, with all other
 /// symbols `fixed`, and over all directions of a sum of errors.
@@ -22,6 +23,7 @@ use crate::tape::Tape;
 pub fn largest(
     graph: &mut Graph,
     magnitude: &Magnitude,
+    implicit: &[Implicit],
     moving: &[Moving],
     fixed: &dyn Fn(Symbol) -> f64,
     effort: &Effort,
@@ -30,23 +32,37 @@ pub fn largest(
     let node = magnitude.node;
     if graph.value(node) == Some(0.0) {
         let at = moving.iter().map(|name| name.home.clamp(name.range[0], name.range[1])).collect();
-        return Bound { found: 0.0, certified: 0.0, at, boxes: 0, complete: true };
+        return Bound { found: 0.0, certified: 0.0, at, boxes: 0, complete: true, unbounded: None };
     }
-    let depends = graph.symbols(&[node]);
-    let is_active = |name: &Moving| depends.contains(&name.symbol) && name.range[0] < name.range[1];
+    let depends = Implicit::symbols(graph, &[node], implicit);
+    let has_unknowns = implicit
+        .iter()
+        .flat_map(|implicit| &implicit.sets)
+        .any(|(unknowns, _)| unknowns.iter().any(|unknown| depends.contains(unknown)));
+    // The way from home to a box moves a name that stands still elsewhere, too.
+    let moves = |name: &Moving| name.range[0] < name.range[1] || has_unknowns && name.range[0] != name.home;
+    let is_active = |name: &Moving| depends.contains(&name.symbol) && moves(name);
     let direction = DIRECTION.map(|(symbol, range)| Moving { symbol, range, home: 0.0, start: 0.0 });
     let active: Vec<Moving> = moving.iter().copied().chain(direction).filter(is_active).collect();
-    let symbols: Vec<Symbol> = active.iter().map(|name| name.symbol).collect();
-    let slopes: Vec<Node> = symbols.iter().map(|symbol| graph.diff(node, *symbol)).collect();
+    let mut symbols: Vec<Symbol> = active.iter().map(|name| name.symbol).collect();
     let still = |symbol: Symbol| {
         let name = moving.iter().find(|name| name.symbol == symbol);
         name.map_or_else(|| fixed(symbol), |name| name.home.clamp(name.range[0], name.range[1]))
     };
-    let all: Vec<Node> = std::iter::once(node).chain(slopes).collect();
-    let domain = active.iter().map(|name| match period::is_angle(graph, node, name.symbol) {
-        true => period::once_around(name.range),
-        false => name.range,
-    });
+    let mut unknowns = None;
+    let mut all = vec![node];
+    if has_unknowns {
+        let names: Vec<(Symbol, f64)> = active.iter().map(|name| (name.symbol, name.home)).collect();
+        let (found, inputs) = Unknowns::new(graph, implicit, &names, &depends, still);
+        (unknowns, symbols) = (Some(found), inputs);
+    } else {
+        all.extend(symbols.iter().map(|symbol| graph.diff(node, *symbol)));
+    }
+    let domain =
+        active.iter().map(|name| match !has_unknowns && period::is_angle(graph, node, name.symbol) {
+            true => period::once_around(name.range),
+            false => name.range,
+        });
     let domain: Vec<[f64; 2]> = domain.collect();
     let value = Tape::new(graph, &[node], &symbols, still);
     let mut slopes = Tape::new(graph, &all, &symbols, still);
@@ -54,9 +70,12 @@ pub fn largest(
     let start = active.iter().zip(&domain).map(|(name, [low, high])| name.start.clamp(*low, *high)).collect();
     let parts: Vec<Node> = std::iter::once(node).chain(magnitude.parts.iter().copied()).collect();
     let parts = Tape::new(graph, &parts, &symbols, still);
-    let corners = Convex::new(&parts, active.len()).and_then(Corners::new);
+    let corners = match &unknowns {
+        None => Convex::new(&parts, active.len()).and_then(Corners::new),
+        Some(_) => None,
+    };
     let search = Search {
-        problem: Problem { value, corners, all: slopes, domain, start },
+        problem: Problem { value, corners, all: slopes, domain, start, unknowns },
         squared: magnitude.squared,
         effort: *effort,
     };
@@ -69,10 +88,13 @@ pub fn largest(
         9..=16 => search.run::<16>(watch),
         _ => search.run::<MOST_MOVING>(watch),
     };
-    let mut found = bound.at.iter();
-    let at = moving.iter().map(|name| {
-        let own = if is_active(name) { found.next().copied() } else { None };
-        own.unwrap_or_else(|| still(name.symbol))
-    });
-    Bound { at: at.collect(), ..bound }
+    let whole = |at: &[f64]| -> Vec<f64> {
+        let mut found = at.iter();
+        let values = moving.iter().map(|name| {
+            let own = if is_active(name) { found.next().copied() } else { None };
+            own.unwrap_or_else(|| still(name.symbol))
+        });
+        values.collect()
+    };
+    Bound { at: whole(&bound.at), unbounded: bound.unbounded.as_deref().map(whole), ..bound }
 }

@@ -12,7 +12,7 @@
 //!   bound how far the value can exceed that at the centre of the box.
 //!
 //! `search` examines the boxes of a `problem`, the most promising first, and starts with the
-//! maximum of a `local_search`. `period` recognizes joints that are periodic, and `apart` bounds
+//! maximum of a `local_search`. What loops determine is enclosed as `unknowns`. `period` recognizes joints that are periodic, and `apart` bounds
 //! sums by their parts.
 //!
 //! ```
@@ -29,7 +29,7 @@
 //! let node = graph.mul(x, rest);
 //! let size = Magnitude { node, squared: false, parts: Vec::new() };
 //! let x = Moving { symbol: Symbol::Variable(0), range: [0.0, 1.0], home: 0.0, start: 0.0 };
-//! let bound = largest(&mut graph, &size, &[x], &|_| 0.0, &Effort::default(), &mut |_| true);
+//! let bound = largest(&mut graph, &size, &[], &[x], &|_| 0.0, &Effort::default(), &mut |_| true);
 //! assert!(bound.complete && bound.found <= 0.25 && bound.certified >= 0.25);
 //! assert!(bound.certified <= 1.01 * bound.found);
 //! ```
@@ -50,6 +50,7 @@ mod search_box;
 mod singular;
 mod slopes;
 mod tape;
+mod unknowns;
 mod vertex;
 
 pub use apart::{Limits, limits};

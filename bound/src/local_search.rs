@@ -1,11 +1,13 @@
 //! Local search for a maximum: each step maximizes a quadratic model within a trust region that
 //! grows and shrinks with the success of the steps.
 
-use crate::affine::Affine;
 use crate::problem::{Point, Problem};
+use crate::unknowns::Buffers;
 
 /// Number of sample points before the ascents.
 const SAMPLES: usize = 512;
+/// Number of sample points where unknowns have to be found for each.
+const SAMPLES_OF_UNKNOWNS: usize = 64;
 /// Number of sample points from which an ascent starts.
 const ASCENTS: usize = 6;
 /// Number of values of each name that are scanned from the start.
@@ -15,8 +17,12 @@ const STEPS: usize = 60;
 
 /// Returns the largest value found by ascents from the start and from points spread over the box.
 pub(crate) fn highest<const N: usize>(problem: &Problem) -> Point {
-    let mut points = Vec::new();
-    let mut samples: Vec<Point> = (0..SAMPLES)
+    let mut points = Buffers::default();
+    let (samples, scanned) = match problem.unknowns {
+        None => (SAMPLES, SCANNED),
+        Some(_) => (SAMPLES_OF_UNKNOWNS, 0),
+    };
+    let mut samples: Vec<Point> = (0..samples)
         .map(|sample| {
             let at =
                 (0..problem.domain.len()).map(|i| share(problem, i, spread(sample, i))).collect::<Vec<_>>();
@@ -28,7 +34,7 @@ pub(crate) fn highest<const N: usize>(problem: &Problem) -> Point {
     samples.truncate(ASCENTS);
     // Scan from the start along each name as well, because a slope of 0 there does not exclude
     // larger values.
-    let along = (0..problem.domain.len()).flat_map(|name| (0..SCANNED).map(move |i| (name, i)));
+    let along = (0..problem.domain.len()).flat_map(|name| (0..scanned).map(move |i| (name, i)));
     let along = along.map(|(name, i)| {
         let mut at = problem.start.clone();
         at[name] = share(problem, name, i as f64 / (SCANNED - 1) as f64);
@@ -53,11 +59,10 @@ fn share(problem: &Problem, name: usize, share: f64) -> f64 {
 /// Ascends to a local maximum.
 pub(crate) fn ascend<const N: usize>(problem: &Problem, mut best: Point) -> Point {
     let widths: Vec<f64> = problem.domain.iter().map(|[low, high]| high - low).collect();
-    let (mut registers, mut points, mut reach) = (Vec::<Affine<N>>::new(), Vec::new(), 0.1);
+    let (mut buffers, mut points, mut reach) = (Buffers::<N>::default(), Buffers::default(), 0.1);
     for _ in 0..STEPS {
         let halves: Vec<f64> = widths.iter().map(|width| 1e-6 * width).collect();
-        let (forms, _) = problem.all.evaluate(&mut registers, &best.at, &halves);
-        let [_, slopes @ ..] = &forms[..] else { return best };
+        let slopes = problem.slopes_near(&mut buffers, &best.at, &halves);
         let second = |i: usize, j: usize| slopes[i].slopes.get(j).map_or(0.0, |a| a / halves[j]);
         let mut step = vec![0.0; widths.len()];
         for _ in 0..8 {

@@ -3,6 +3,7 @@
 use crate::affine::Affine;
 use crate::corners::Corners;
 use crate::tape::Tape;
+use crate::unknowns::{Buffers, Unknowns};
 
 /// A value to be maximized over a box.
 pub(crate) struct Problem {
@@ -16,6 +17,8 @@ pub(crate) struct Problem {
     pub(crate) domain: Vec<[f64; 2]>,
     /// Start of the search.
     pub(crate) start: Vec<f64>,
+    /// Unknowns of which the value is a function; there are no slopes then.
+    pub(crate) unknowns: Option<Unknowns>,
 }
 
 /// A value and the point at which it is taken.
@@ -32,7 +35,40 @@ impl Point {
 
 impl Problem {
     /// Returns an enclosure of the value at a point.
-    pub(crate) fn value_at(&self, points: &mut Vec<Affine<0>>, at: &[f64]) -> [f64; 2] {
-        self.value.evaluate(points, at, &vec![0.0; at.len()]).0[0].range()
+    pub(crate) fn value_at(&self, points: &mut Buffers<0>, at: &[f64]) -> [f64; 2] {
+        self.value_within(points, at, &vec![0.0; at.len()]).range()
+    }
+
+    /// Returns an enclosure of the value within a box; unbounded where unknowns may not exist.
+    pub(crate) fn value_within<const N: usize>(
+        &self,
+        buffers: &mut Buffers<N>,
+        centres: &[f64],
+        halves: &[f64],
+    ) -> Affine<N> {
+        let Some(unknowns) = &self.unknowns else {
+            return self.value.evaluate(&mut buffers.registers, centres, halves).0[0];
+        };
+        match unknowns.enclose(buffers, centres, halves) {
+            Some(inputs) => self.value.evaluate_at(&mut buffers.registers, &inputs).0[0],
+            None => Affine::anything(),
+        }
+    }
+
+    /// Returns the slope of the value along each name near a point; without slopes of their own if
+    /// there are unknowns.
+    pub(crate) fn slopes_near<const N: usize>(
+        &self,
+        buffers: &mut Buffers<N>,
+        at: &[f64],
+        halves: &[f64],
+    ) -> Vec<Affine<N>> {
+        if self.unknowns.is_none() {
+            return self.all.evaluate(&mut buffers.registers, at, halves).0.split_off(1);
+        }
+        let form = self.value_within(buffers, at, halves);
+        let slope =
+            |(slope, half): (&f64, &f64)| Affine::known(if *half > 0.0 { slope / half } else { 0.0 }, 0.0);
+        form.slopes.iter().zip(halves).map(slope).collect()
     }
 }

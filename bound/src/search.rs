@@ -5,12 +5,12 @@ use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
 
-use crate::affine::Affine;
 use crate::corners::Corners;
 use crate::effort::{Effort, Progress};
 use crate::local_search::{ascend, highest};
 use crate::problem::{Point, Problem};
 use crate::search_box::{SearchBox, Workspace};
+use crate::unknowns::Buffers;
 
 /// Number of boxes bisected in a round, for any number of threads.
 const ROUND: usize = 64;
@@ -31,6 +31,8 @@ pub struct Bound {
     pub boxes: usize,
     /// `true` if the gap was reached.
     pub complete: bool,
+    /// Centre of a box in which the value may be infinite, if there is one.
+    pub unbounded: Option<Vec<f64>>,
 }
 
 /// A maximization problem and its termination criteria.
@@ -76,9 +78,9 @@ impl Search {
             most: f64::INFINITY,
             split: 0,
         };
-        let first =
-            self.problem.value.evaluate(&mut Vec::<Affine<N>>::new(), &whole.centres().0, &whole.centres().1);
-        let allowed = self.size(first.0[0].range()[1]);
+        let (centres, halves) = whole.centres();
+        let first = self.problem.value_within(&mut Buffers::<N>::default(), &centres, &halves);
+        let allowed = self.size(first.range()[1]);
         let nothing = if allowed.is_finite() { (NOTHING[0] * allowed).max(NOTHING[1]) } else { NOTHING[1] };
         let (mut waiting, mut boxes, mut left) = (BinaryHeap::new(), 0, f64::NEG_INFINITY);
         let mut open = vec![whole];
@@ -127,13 +129,16 @@ impl Search {
                 break certified <= found + (self.effort.gap * found).max(nothing);
             }
         };
-        let most = waiting.peek().map_or(f64::NEG_INFINITY, |waiting| waiting.search_box.most);
+        let top = waiting.peek().map(|waiting| &waiting.search_box);
+        let most = top.map_or(f64::NEG_INFINITY, |top| top.most);
+        let unbounded = top.filter(|top| top.most.is_infinite()).map(|top| top.centres().0);
         Bound {
             found: self.rounded_down(best.value),
             certified: self.certified(most.max(left).max(best.value)),
             at: best.at,
             boxes,
             complete,
+            unbounded,
         }
     }
 

@@ -3,9 +3,10 @@
 use std::cmp::Ordering;
 
 use crate::affine::{Affine, UNIT, above};
-use crate::corners::{Buffers, Corners};
+use crate::corners::{self, Corners};
 use crate::problem::{Point, Problem};
 use crate::slopes::SlopeBound;
+use crate::unknowns::Buffers;
 
 /// A box that may contain the largest value.
 #[derive(Clone, Debug)]
@@ -32,14 +33,19 @@ const SATURATED: f64 = 0.95;
 /// Examines boxes, with buffers that are reused from one to the next.
 pub(crate) struct Workspace<'a, const N: usize> {
     problem: &'a Problem,
-    registers: Vec<Affine<N>>,
-    points: Vec<Affine<0>>,
-    corners: Buffers,
+    buffers: Buffers<N>,
+    points: Buffers<0>,
+    corners: corners::Buffers,
 }
 
 impl<'a, const N: usize> Workspace<'a, N> {
     pub(crate) fn new(problem: &'a Problem) -> Self {
-        Self { problem, registers: Vec::new(), points: Vec::new(), corners: Buffers::default() }
+        Self {
+            problem,
+            buffers: Buffers::default(),
+            points: Buffers::default(),
+            corners: corners::Buffers::default(),
+        }
     }
 
     /// Examines a box. Returns `None` for the box if it contains no value larger than the found
@@ -47,8 +53,38 @@ impl<'a, const N: usize> Workspace<'a, N> {
     pub(crate) fn look(&mut self, search_box: SearchBox, found: f64) -> (Option<SearchBox>, Point) {
         match &self.problem.corners {
             Some(corners) => self.look_at_corners(corners, search_box, found),
+            None if self.problem.unknowns.is_some() => self.look_at_forms(search_box, found),
             None => self.look_at_slopes(search_box),
         }
+    }
+
+    /// Bounds the box by the form of the value, and bisects the name with the largest influence on
+    /// it: its slope, and its part of the rest, which grows with the square of the width.
+    fn look_at_forms(&mut self, mut search_box: SearchBox, found: f64) -> (Option<SearchBox>, Point) {
+        let (centres, halves) = search_box.centres();
+        let form = self.problem.value_within(&mut self.buffers, &centres, &halves);
+        search_box.most = search_box.most.min(form.range()[1]);
+        if search_box.most <= found {
+            return (None, Point::NONE);
+        }
+        let widths = halves.iter().zip(&self.problem.domain).map(|(half, [low, high])| match half {
+            0.0 => 0.0,
+            _ => half / (high - low),
+        });
+        let widths: Vec<f64> = widths.collect();
+        let squares: f64 = widths.iter().map(|width| width * width).sum();
+        let influence = |i: usize| match form.rest.is_finite() {
+            true => {
+                form.slopes.get(i).map_or(0.0, |slope| slope.abs())
+                    + form.rest * widths[i] * widths[i] / squares
+            }
+            false => widths[i],
+        };
+        let names = (0..halves.len()).filter(|i| halves[*i] > 0.0);
+        search_box.split = names.max_by(|a, b| influence(*a).total_cmp(&influence(*b))).unwrap_or(0);
+        let value = self.problem.value_at(&mut self.points, &centres)[0];
+        let point = if value.is_finite() { Point { value, at: centres } } else { Point::NONE };
+        (Some(search_box), point)
     }
 
     /// Bounds the box by the corner with the largest value. If that lies outside of the arcs, a
@@ -94,7 +130,7 @@ impl<'a, const N: usize> Workspace<'a, N> {
         let mut point = Point::NONE;
         for pass in 1.. {
             let (centres, halves) = search_box.centres();
-            let (forms, jumps) = self.problem.all.evaluate(&mut self.registers, &centres, &halves);
+            let (forms, jumps) = self.problem.all.evaluate(&mut self.buffers.registers, &centres, &halves);
             let [value, slopes @ ..] = &forms[..] else { return (Some(search_box), point) };
             if !jumps {
                 match self.confine(&mut search_box, slopes, &centres, &halves) {
@@ -131,7 +167,8 @@ impl<'a, const N: usize> Workspace<'a, N> {
         let mut alone = vec![0.0; halves.len()];
         let mut moved = |i: usize, part: f64| {
             alone[i] = part * halves[i];
-            let radius = self.problem.value.evaluate(&mut self.registers, centres, &alone).0[0].radius();
+            let radius =
+                self.problem.value.evaluate(&mut self.buffers.registers, centres, &alone).0[0].radius();
             alone[i] = 0.0;
             if radius.is_nan() { f64::INFINITY } else { radius }
         };

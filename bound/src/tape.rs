@@ -110,16 +110,21 @@ impl Tape {
         centres: &[f64],
         halves: &[f64],
     ) -> (Vec<Affine<N>>, bool) {
-        registers.clear();
-        for (i, (centre, half)) in centres.iter().zip(halves).enumerate() {
-            let mut slopes = [0.0; N];
-            match slopes.get_mut(i) {
-                Some(slope) => *slope = *half,
-                None if *half > 0.0 => return (vec![Affine::anything(); self.outputs.len()], true),
-                None => {}
-            }
-            registers.push(Affine { centre: *centre, slopes, spread: *half, rest: 0.0 });
+        match names(centres, halves) {
+            Some(names) => self.evaluate_at(registers, &names),
+            None => (vec![Affine::anything(); self.outputs.len()], true),
         }
+    }
+
+    /// Returns the enclosures of the outputs from those of the names, and whether one of them may
+    /// jump there.
+    pub(crate) fn evaluate_at<const N: usize>(
+        &self,
+        registers: &mut Vec<Affine<N>>,
+        names: &[Affine<N>],
+    ) -> (Vec<Affine<N>>, bool) {
+        registers.clear();
+        registers.extend_from_slice(names);
         let mut jumps = false;
         for step in &self.steps {
             let at = |register: Register| &registers[register];
@@ -159,6 +164,20 @@ impl Tape {
         }
         (self.outputs.iter().map(|output| registers[*output]).collect(), jumps)
     }
+}
+
+/// Returns the forms of names within their half widths of their centres; `None` for too many.
+pub(crate) fn names<const N: usize>(centres: &[f64], halves: &[f64]) -> Option<Vec<Affine<N>>> {
+    let name = |(i, (centre, half)): (usize, (&f64, &f64))| {
+        let mut slopes = [0.0; N];
+        match slopes.get_mut(i) {
+            Some(slope) => *slope = *half,
+            None if *half > 0.0 => return None,
+            None => {}
+        }
+        Some(Affine { centre: *centre, slopes, spread: *half, rest: 0.0 })
+    };
+    centres.iter().zip(halves).enumerate().map(name).collect()
 }
 
 impl Draft {

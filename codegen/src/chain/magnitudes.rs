@@ -12,10 +12,12 @@ use abbe_spec::expr::{Function, Symbol};
 use super::accumulate::Links;
 use super::by_source::errors_by_source;
 use super::displacement::Displacement;
+use super::implicit::Implicit;
 use super::minors::products;
 use super::rows::Rows;
 use super::six::vectors;
 use super::sources;
+use super::tree::Parts;
 use crate::graph::{Graph, Node, Vector};
 
 /// Magnitude of an error of the tool point.
@@ -70,14 +72,16 @@ pub struct Magnitudes {
     /// Upper bounds of the errors along x and along y, for each kind: the norm of both. They do not
     /// depend on leading rotations about z.
     pub across_z: [Magnitude; 3],
-    /// Parts of all magnitudes.
-    pub apart: PerFrameMagnitudes,
+    /// Parts of all magnitudes; `None` unless the frames are a chain.
+    pub apart: Option<PerFrameMagnitudes>,
+    /// What the loops determine; the nodes read it as symbols.
+    pub implicit: Vec<Implicit>,
 }
 
 /// Azimuth and elevation of the direction along which errors are added, and their ranges: half a
 /// sphere, for errors have either sign.
 pub const DIRECTION: [(Symbol, [f64; 2]); 2] =
-    [(Symbol::Local(0), [0.0, PI]), (Symbol::Local(1), [-FRAC_PI_2, FRAC_PI_2])];
+    [(Symbol::Target(0), [0.0, PI]), (Symbol::Target(1), [-FRAC_PI_2, FRAC_PI_2])];
 
 /// Parts of the errors of the tool point: norms that each depend on few joints.
 #[derive(Clone, Debug)]
@@ -136,13 +140,18 @@ struct ToolDisplacement {
 }
 
 impl Magnitudes {
-    /// Builds the magnitudes of a checked spec.
-    pub fn new(spec: &Spec) -> Self {
+    /// Builds the magnitudes of a checked spec, as functions of the joint variables, or of the passive
+    /// ones that are `given`.
+    pub fn new(spec: &Spec, given: &[usize]) -> Self {
         let (mut graph, effects) = sources::effects(spec);
         let g = &mut graph;
         let zero = g.zero();
         let links = Links::new(g, spec);
-        let last_axis = links.last_axis(g, spec.orientation);
+        let tree = (!spec.is_serial()).then(|| Parts::implicit(g, spec, given));
+        let last_axis = match &tree {
+            Some((parts, ..)) => parts.tool_axis(spec.orientation.last_axis().unwrap_or(0)),
+            None => links.last_axis(g, spec.orientation),
+        };
         let rows = Rows::new(g, spec.orientation, last_axis);
 
         let errors = sources::generalized_errors(g, spec, &effects);
@@ -190,10 +199,11 @@ impl Magnitudes {
         let [repeatable, random, total] = kinds.map(|(kind, places, radius)| {
             let first = kind.iter().filter_map(|errors| errors.iter().position(moves)).min();
             let first = first.unwrap_or(spec.frames.len());
-            let moved: Vec<ToolDisplacement> = kind
-                .iter()
-                .map(|errors| ToolDisplacement::by(g, spec, &links, &rows, errors, first))
-                .collect();
+            let moved = kind.iter().map(|errors| match &tree {
+                Some((parts, ..)) => ToolDisplacement::of_tree(g, spec, parts, &rows, errors),
+                None => ToolDisplacement::by(g, spec, &links, &rows, errors, first),
+            });
+            let moved: Vec<ToolDisplacement> = moved.collect();
             let symbols = g.symbols(kind.concat().as_flattened());
             let is_constant = symbols.iter().all(|symbol| matches!(symbol, Symbol::Parameter(_)));
             let most_signed = if is_constant { MOST_SIGNED } else { 0 };
@@ -205,7 +215,9 @@ impl Magnitudes {
             ([norm, x, y, z, turn], across_z)
         });
         let across_z = [repeatable.1, random.1, total.1];
-        Self { graph, repeatable: repeatable.0, random: random.0, total: total.0, across_z, apart }
+        let (apart, implicit) = tree.map_or((Some(apart), Vec::new()), |(_, implicit, _)| (None, implicit));
+        let (repeatable, random, total) = (repeatable.0, random.0, total.0);
+        Self { graph, repeatable, random, total, across_z, apart, implicit }
     }
 }
 
@@ -327,5 +339,13 @@ impl ToolDisplacement {
             turn = [four, five, six];
         }
         Self { shift, along: [x, y, z], across_z: [across_x, across_y], turn }
+    }
+
+    /// Computes the displacement of a tree of frames.
+    fn of_tree(graph: &mut Graph, spec: &Spec, parts: &Parts, rows: &Rows, errors: &[[Node; 6]]) -> Self {
+        let [shift, turn] = parts.by_errors(graph, errors);
+        let [x, y, z, four, five, six] = rows.column(graph, shift, turn);
+        let turn = if spec.orientation == Orientation::RotationVector { turn } else { [four, five, six] };
+        Self { shift, along: [x, y, z], across_z: [x, y], turn }
     }
 }

@@ -12,7 +12,8 @@
 //! the error left after it. `inverse` solves for the joints in closed form. `dexterity` holds rows
 //! of `J_q` (`joint_columns`), `tool_compliance` the displacement per force. `equivalent_forms` and
 //! `origin_form` state alternative forms, from which a program takes the cheapest. `tree` builds
-//! the same quantities for frames that branch, and for loops. [`Model`] holds the results.
+//! the same quantities for frames that branch, and for loops, whose unknowns are `implicit` where
+//! they are to be enclosed. [`Model`] holds the results.
 
 mod accumulate;
 mod by_source;
@@ -25,6 +26,7 @@ mod elastic;
 mod equivalent_forms;
 mod error_jacobian;
 mod frame_twist;
+mod implicit;
 mod inverse;
 mod joint_columns;
 mod joint_step;
@@ -55,6 +57,7 @@ pub use dexterity::Dexterity;
 pub(crate) use displacement::Displacement;
 pub(crate) use error_jacobian::Columns;
 pub use frame_twist::FrameTwist;
+pub use implicit::Implicit;
 pub(crate) use local::Local;
 pub use local_twist::LocalTwist;
 pub(crate) use lower_pairs::lower_pairs;

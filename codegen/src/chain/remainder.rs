@@ -3,10 +3,12 @@
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
+use super::implicit::Implicit;
 use super::kinematics::of_repeatable;
 use super::magnitudes::Magnitude;
 use super::real::RealChain;
 use super::sources;
+use super::tree::curvature;
 use crate::graph::Graph;
 
 /// Remainder of the tool point's position after `J_e ε` of the repeatable sources.
@@ -25,21 +27,31 @@ pub struct Remainder {
     pub magnitude: Magnitude,
     /// t.
     pub share: Symbol,
+    /// What the loops determine; the nodes read it as symbols.
+    pub implicit: Vec<Implicit>,
 }
 
 impl Remainder {
-    /// Builds the remainder of a checked spec.
-    pub fn new(spec: &Spec) -> Self {
+    /// Builds the remainder of a checked spec, as a function of the joint variables, or of the
+    /// passive ones that are `given`.
+    pub fn new(spec: &Spec, given: &[usize]) -> Self {
         let (mut graph, _, causes) = sources::effects_and_causes(spec);
         let g = &mut graph;
         let share = Symbol::Magnitude(0);
-        let [t, zero, half] = [g.symbol(share), g.zero(), g.constant(0.5)];
-        let magnitudes = of_repeatable(spec, t, zero);
-        let point = RealChain::new(g, spec, &causes, magnitudes).tool_point_from_first_error(g);
-        let speed = g.diff_all(&point, share);
-        let half_curvature = g.diff_all(&speed, share).into_iter().map(|part| g.mul(half, part));
-        let vector = <[_; 3]>::try_from(half_curvature.collect::<Vec<_>>()).expect("three parts");
-        let magnitude = Magnitude::length(g, vector);
-        Self { graph, magnitude, share }
+        let half = g.constant(0.5);
+        let (curvature, implicit) = match spec.is_serial() {
+            true => {
+                let [t, zero] = [g.symbol(share), g.zero()];
+                let magnitudes = of_repeatable(spec, t, zero);
+                let point = RealChain::new(g, spec, &causes, magnitudes).tool_point_from_first_error(g);
+                let speed = g.diff_all(&point, share);
+                let curvature = g.diff_all(&speed, share);
+                (<[_; 3]>::try_from(curvature).expect("three parts"), Vec::new())
+            }
+            false => curvature(g, spec, &causes, share, given),
+        };
+        let half_curvature = g.scale(half, curvature);
+        let magnitude = Magnitude::length(g, half_curvature);
+        Self { graph, magnitude, share, implicit }
     }
 }

@@ -45,20 +45,24 @@ impl CertifiedNorms {
         let Classes { repeatable, random } = Classes::enabled(&domain.spec);
         let sources =
             domain.spec.enabled_sources().filter(|source| source.class != Class::Repeatable).count();
-        if !repeatable && !random || sources * domain.spec.frames.len() > MOST_RANDOM {
+        // With loops, a bound takes too long beside an analysis.
+        if !domain.spec.is_serial()
+            || !repeatable && !random
+            || sources * domain.spec.frames.len() > MOST_RANDOM
+        {
             return None;
         }
-        let mut magnitudes = Magnitudes::new(&domain.spec);
+        let mut magnitudes = Magnitudes::new(&domain.spec, &[]);
         let norms =
             [&magnitudes.repeatable, &magnitudes.random, &magnitudes.total].map(|five| five[0].clone());
         let moving = domain.moving_count();
         let boxes = WORK / (magnitudes.graph.len() * moving * moving).max(1);
         let effort = Effort { boxes: boxes.min(20_000), samples: SAMPLES, ..Effort::default() };
-        let limits = domain.limits(&mut magnitudes.graph, &magnitudes.apart).position;
+        let limits = domain.limits(&mut magnitudes.graph, magnitudes.apart.as_ref()).position;
         let mut largest = |i: usize, any: bool, effort: Effort| {
             any.then(|| {
                 let mut go_on = |_: &Progress| !notes.stop();
-                let bound = domain.largest(&mut magnitudes.graph, &norms[i], None, &effort, &mut go_on);
+                let bound = domain.largest(&mut magnitudes.graph, &norms[i], &[], None, &effort, &mut go_on);
                 ErrorBound::new(&bound, &domain)
             })
         };

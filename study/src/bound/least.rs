@@ -3,7 +3,7 @@
 use abbe_bound::{Effort, Extreme, Progress, Singular, singular_value};
 use abbe_codegen::chain;
 
-use super::domain::{Domain, home};
+use super::domain::Domain;
 use super::report::{Dexterity, LowerBound};
 
 impl Domain {
@@ -15,7 +15,7 @@ impl Domain {
     ) -> Option<Dexterity> {
         let chain::Dexterity { graph, point, pose } = chain::Dexterity::new(&self.spec)?;
         let mut least = |rows: &Vec<_>| {
-            let still = |symbol| home(symbol, &self.spec);
+            let still = |symbol| self.home(symbol);
             let least = singular_value(Extreme::Least, &graph, rows, &self.names(), &still, effort, watch);
             self.least(&least)
         };
@@ -30,7 +30,7 @@ impl Domain {
         watch: &mut dyn FnMut(&Progress) -> bool,
     ) -> Option<LowerBound> {
         let chain::ToolCompliance { graph, rows } = chain::ToolCompliance::new(&self.spec)?;
-        let still = |symbol| home(symbol, &self.spec);
+        let still = |symbol| self.home(symbol);
         let largest = singular_value(Extreme::Largest, &graph, &rows, &self.names(), &still, effort, watch);
         let certified = (1.0 / largest.certified).next_down().max(0.0);
         Some(self.least(&Singular { certified, found: largest.found.map(f64::recip), ..largest }))

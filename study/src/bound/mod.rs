@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use abbe::Orientation;
 use abbe_bound::{Bound as Proved, Effort, Progress};
-use abbe_codegen::chain::{Magnitude, Magnitudes};
+use abbe_codegen::chain::{Implicit, Magnitude, Magnitudes};
 use abbe_codegen::graph::Graph;
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -61,10 +61,13 @@ impl Bound {
     /// report.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, .. } = self;
+        if self.least {
+            machine.require_chain("no dexterity or stiffness is bounded", "leave out `--least`")?;
+        }
         let domain = Domain::new(machine, study)?;
-        let Magnitudes { mut graph, repeatable, random, total, across_z, apart } =
-            Magnitudes::new(&domain.spec);
-        let limits = domain.limits(&mut graph, &apart);
+        let Magnitudes { mut graph, repeatable, random, total, across_z, apart, implicit } =
+            Magnitudes::new(&domain.spec, &domain.given);
+        let limits = domain.limits(&mut graph, apart.as_ref());
         // Euler angles are no rotation vector, so the limit on it does not apply.
         let is_rotation = domain.spec.orientation == Orientation::RotationVector;
         let at_most = |kind: usize| {
@@ -74,7 +77,8 @@ impl Bound {
         let start = domain.worst_of_workspace(machine, study);
         let (start, in_study) =
             start.as_ref().map_or((None, None), |(at, worst)| (Some(&at[..]), Some(*worst)));
-        let mut searches = Searches { job: self, domain: &domain, begun: Instant::now(), done: 0 };
+        let mut searches =
+            Searches { job: self, domain: &domain, implicit: &implicit, begun: Instant::now(), done: 0 };
         let repeatable =
             searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), start, notes)?;
         let random = searches.error_bounds(&mut graph, &random, &across_z[1], at_most(1), start, notes)?;
@@ -122,6 +126,8 @@ const SEARCHES: usize = 22;
 struct Searches<'a> {
     job: &'a Bound,
     domain: &'a Domain,
+    /// What loops determine.
+    implicit: &'a [Implicit],
     begun: Instant,
     /// Number of completed searches.
     done: usize,
@@ -173,7 +179,8 @@ impl Searches<'_> {
         effort: &Effort,
         notes: &mut dyn Notes,
     ) -> Result<Proved, Diagnostics> {
-        self.run(notes, |domain, watch| domain.largest(graph, magnitude, start, effort, watch))
+        let implicit = self.implicit;
+        self.run(notes, |domain, watch| domain.largest(graph, magnitude, implicit, start, effort, watch))
     }
 
     /// Runs one search within the time limit.
@@ -182,7 +189,7 @@ impl Searches<'_> {
         notes: &mut dyn Notes,
         search: impl FnOnce(&Domain, &mut dyn FnMut(&Progress) -> bool) -> T,
     ) -> Result<T, Diagnostics> {
-        let Self { job, domain, begun, done } = *self;
+        let Self { job, domain, begun, done, .. } = *self;
         let found = search(domain, &mut |_| {
             notes.progress(done, SEARCHES);
             !notes.stop() && job.time.is_none_or(|time| begun.elapsed() < time)

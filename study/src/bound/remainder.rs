@@ -1,17 +1,15 @@
 //! Bounds on the first-order error, and on the error after one step of compensation.
 
 use abbe_bound::{Effort, Moving, Progress};
-use abbe_codegen::chain::{self, Magnitude};
+use abbe_codegen::chain::{self, Implicit, Magnitude};
 use abbe_codegen::graph::Graph;
 use abbe_spec::expr::Symbol;
 
-use super::domain::{Domain, home};
+use super::domain::{Domain, GIVE_UP_BOXES};
 use super::report::{Classes, Remainder, StepResidual};
 
 /// Effort for these small errors: a gap of one half is enough.
 const REMAINDER_EFFORT: Effort = Effort { gap: 0.5, boxes: 20_000, ..Effort::DEFAULT };
-/// Number of boxes after which an infinite bound is given up.
-const GIVE_UP_BOXES: usize = 3_000;
 
 impl Domain {
     /// Bounds the first-order error in the position for the repeatable sources; `None` if there are
@@ -24,13 +22,15 @@ impl Domain {
         if !Classes::enabled(&self.spec).repeatable {
             return None;
         }
-        let chain::Remainder { mut graph, magnitude, share } = chain::Remainder::new(&self.spec);
-        Some(Remainder::new(&self.largest_on_curve(&mut graph, &magnitude, share, requested, watch)))
+        let chain::Remainder { mut graph, magnitude, implicit, share } =
+            chain::Remainder::new(&self.spec, &self.given);
+        let bound = self.largest_on_curve(&mut graph, &magnitude, &implicit, share, requested, watch);
+        Some(Remainder::new(&bound))
     }
 
     /// Bounds the error of the repeatable sources after one step of compensation, where tables hold
     /// their last value if the step goes beyond their ends; `None` without
-    /// repeatable sources or with too few joints. Stops where it may exceed `before`, the error
+    /// repeatable sources, with too few joints or for a tree of frames. Stops where it may exceed `before`, the error
     /// without compensation.
     pub(super) fn after_step(
         &self,
@@ -38,7 +38,7 @@ impl Domain {
         before: [f64; 2],
         watch: &mut dyn FnMut(&Progress) -> bool,
     ) -> Option<StepResidual> {
-        if !Classes::enabled(&self.spec).repeatable {
+        if !Classes::enabled(&self.spec).repeatable || !self.spec.is_serial() {
             return None;
         }
         let chain::CompensationResidual { mut graph, point, turn, share } =
@@ -48,7 +48,7 @@ impl Domain {
                 let is_given_up = progress.certified.is_infinite() && progress.boxes >= GIVE_UP_BOXES;
                 progress.found <= before && !is_given_up && watch(progress)
             };
-            self.largest_on_curve(&mut graph, magnitude, share, requested, &mut watch)
+            self.largest_on_curve(&mut graph, magnitude, &[], share, requested, &mut watch)
         };
         let corrects_orientation = turn.is_some();
         let point = largest(&point, before[0]);
@@ -62,6 +62,7 @@ impl Domain {
         &self,
         graph: &mut Graph,
         magnitude: &Magnitude,
+        implicit: &[Implicit],
         share: Symbol,
         requested: &Effort,
         watch: &mut dyn FnMut(&Progress) -> bool,
@@ -70,6 +71,6 @@ impl Domain {
         moving.push(Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 });
         let gap = requested.gap.max(REMAINDER_EFFORT.gap);
         let effort = Effort { gap, boxes: requested.boxes.min(REMAINDER_EFFORT.boxes), ..REMAINDER_EFFORT };
-        abbe_bound::largest(graph, magnitude, &moving, &|symbol| home(symbol, &self.spec), &effort, watch)
+        abbe_bound::largest(graph, magnitude, implicit, &moving, &|symbol| self.home(symbol), &effort, watch)
     }
 }

@@ -37,7 +37,7 @@ pub struct Report {
     /// First-order error of the repeatable sources; `None` if there are none.
     pub remainder: Option<Remainder>,
     /// Error of the repeatable sources after one step of compensation; `None` without repeatable
-    /// sources or with fewer than three joints.
+    /// sources, with fewer than three joints, or with branches or loops.
     pub after_one_step: Option<StepResidual>,
     /// Margin to the position tolerance, in the length unit; `None` if the study has no such
     /// tolerance.
@@ -50,7 +50,7 @@ pub struct Report {
     /// Smallest stiffness at the tool point in any direction, in N/m, from the enabled repeatable
     /// beams and compliances. `None` if not requested, or if nothing is compliant.
     pub stiffness: Option<LowerBound>,
-    /// Ranges of all moving joint variables, parameters and inputs.
+    /// Ranges of all moving joint variables, parameters and inputs, or of given passive variables.
     #[serde(rename = "box")]
     pub spans: IndexMap<String, [f64; 2]>,
     /// Indicates that the enclosing box is larger than the workspace of the study.
@@ -121,6 +121,9 @@ pub struct ErrorBound {
     /// Description of the configuration by its differences from home.
     #[serde(skip)]
     pub label: String,
+    /// Description of a configuration near which the error may be infinite, if there is one.
+    #[serde(skip)]
+    pub unbounded: Option<String>,
 }
 
 /// First-order error: distance of the tool point between the exact chain `A_1 E_1 … A_n E_n T` and
@@ -260,7 +263,7 @@ pub(super) struct OtherBounds {
 
 impl Report {
     pub(super) fn new(
-        Domain { spec, spans: moving_spans }: Domain,
+        Domain { spec, spans: moving_spans, .. }: Domain,
         study: &Study,
         effort: &Effort,
         [repeatable, random, total]: [ErrorBounds; 3],
@@ -349,6 +352,14 @@ impl Report {
                  may be smaller",
             );
         }
+        let open = self.total.all().into_iter().find_map(|largest| largest.unbounded.as_ref());
+        if let Some(place) = open.filter(|_| !self.spec.loops.is_empty()) {
+            notes.warn(&format!(
+                "within the box a loop may open or reach a dead point, where nothing bounds the errors: \
+                 near {}",
+                if place.is_empty() { "home" } else { place }
+            ));
+        }
         if !self.complete {
             notes.warn(&format!(
                 "the gap of {} was not reached everywhere: the bounds hold, but may be far above \
@@ -412,6 +423,7 @@ impl ErrorBound {
             boxes: bound.boxes,
             complete: bound.complete,
             label,
+            unbounded: bound.unbounded.as_ref().map(|at| domain.describe(at).1),
         }
     }
 }

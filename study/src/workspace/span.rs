@@ -12,7 +12,7 @@ use crate::mistake;
 /// computed.
 const SOLVED: usize = 10_000;
 
-/// Range of a variable, parameter or input.
+/// Range of a variable, parameter or input, or of a passive variable that is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Symbol with the range.
@@ -33,6 +33,11 @@ impl Region {
             _ => return None,
         };
         Some(span.range).filter(|[lower, upper]| lower < upper)
+    }
+
+    /// Returns `true` if passive variables are given, and joint variables follow from them.
+    pub fn is_platform(&self) -> bool {
+        matches!(self.form, Form::Platform(..))
     }
 
     /// Returns the box of joints, parameters and inputs that contains every configuration. Symbols
@@ -65,7 +70,7 @@ impl Region {
             Form::Box(BaseBox { approaches, solved, .. }) => {
                 approaches.iter().map(over(Symbol::Variable)).chain(reached(solved)).collect()
             }
-            Form::Platform(..) => reached(&(0..spec.variables.len()).collect::<Vec<_>>()),
+            Form::Platform(axes, _) => axes.iter().map(over(Symbol::Passive)).collect(),
             Form::Path(path) => path.columns().map(|(symbol, values)| hull(symbol, &values)).collect(),
             Form::One(q) => {
                 let joint = |(i, value): (usize, &f64)| hull(Symbol::Variable(i), &[*value]);
@@ -116,7 +121,8 @@ impl Region {
     /// Returns true if the workspace fills its box: every value of the box is in the workspace, or
     /// between two values of it.
     pub fn is_box(&self, spec: &Spec) -> bool {
-        let is_filled = matches!(self.form, Form::Grid(_) | Form::Samples { .. } | Form::One(_));
+        let is_filled =
+            matches!(self.form, Form::Grid(_) | Form::Samples { .. } | Form::Platform(..) | Form::One(_));
         is_filled && spec.sum_limits.is_empty() && spec.inputs.iter().all(|input| input.levels.is_empty())
     }
 }

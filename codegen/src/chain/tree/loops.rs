@@ -83,7 +83,7 @@ impl ClosedLoops {
 
 impl RealNodes {
     /// Returns the machine with the errors of sources, each times its magnitude.
-    fn new(
+    pub(super) fn new(
         graph: &mut Graph,
         spec: &Spec,
         causes: &Causes,

@@ -11,11 +11,12 @@
 //! `triangular` sorts φ_p into irreducible blocks. `system` has the equations of a machine and
 //! Newton's step, `continuation` closes it at home, `path` follows a path from there, and `loops`
 //! has the systems of the nominal machine and with errors. `equations` has φ and φ_p themselves,
-//! `lengths` converts errors of the lengths of legs to errors of frames, and `reactions` has the
-//! forces that close the loops of a loaded machine.
+//! `lengths` converts errors of the lengths of legs to errors of frames, `reactions` has the
+//! forces that close the loops of a loaded machine, and `curve` the tool point while errors grow.
 
 mod closure;
 mod continuation;
+mod curve;
 mod equations;
 mod factored;
 mod lengths;
@@ -29,6 +30,7 @@ mod triangular;
 mod units;
 mod view;
 
+pub(super) use curve::curvature;
 pub use equations::LoopEquations;
 pub(super) use lengths::{add_lengths, length_slopes};
 pub(crate) use loops::{ClosedLoops, RealNodes};

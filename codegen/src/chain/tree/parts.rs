@@ -5,9 +5,11 @@ use abbe_spec::expr::Symbol;
 use abbe_spec::{Closure, Factor, Spec};
 
 use super::closure::{self, Ends};
+use super::continuation::passive_at_home;
 use super::factored::{Factored, dot};
 use super::units::Units;
 use super::view::{Motion, View};
+use crate::chain::implicit::Implicit;
 use crate::graph::{Graph, Node, Vector};
 
 /// The frames of a tree, its loops, and what eliminates the passive variables.
@@ -60,6 +62,48 @@ impl<'s> Parts<'s> {
         parts
     }
 
+    /// Creates the parts with symbols for the rows of M, and what defines the variables that loops
+    /// determine, and then these rows: `M φ_p = J_p`. Passive variables that are `given` determine
+    /// the joint variables. Returns the passive variables at home as well.
+    pub(crate) fn implicit(
+        graph: &mut Graph,
+        spec: &'s Spec,
+        given: &[usize],
+    ) -> (Self, Vec<Implicit>, Vec<f64>) {
+        let mut parts = Self::new(graph, spec);
+        let count = spec.passive.len();
+        if count == 0 {
+            return (parts, Vec::new(), Vec::new());
+        }
+        let (residual, units) = (parts.residual(graph), Units::new(spec, graph));
+        let step = parts.factored.solve(graph, &residual);
+        let home = passive_at_home(spec, graph, &residual, &step, &units);
+        let passive = (0..count).filter(|i| !given.contains(i));
+        let mut unknowns: Vec<(Symbol, f64)> = passive.map(|i| (Symbol::Local(i), home[i])).collect();
+        if !given.is_empty() {
+            unknowns.extend((0..).map(Symbol::Variable).zip(spec.variables.iter().map(|joint| joint.home)));
+        }
+        let (symbols, values): (Vec<Symbol>, Vec<f64>) = unknowns.into_iter().unzip();
+        let columns = symbols.iter().map(|symbol| parts.rates_by_symbol(graph, *symbol)).collect();
+        let closed = Implicit { sets: vec![(symbols, residual)], columns, home: Some(values) };
+
+        let columns = parts.derivatives(graph, spec);
+        let passive = (0..count).map(Symbol::Local);
+        let tool: Vec<[Node; 6]> = passive.map(|symbol| parts.tool_by_symbol(graph, symbol)).collect();
+        let mut sets = Vec::new();
+        for (row, eliminated) in parts.eliminated.iter_mut().enumerate() {
+            let symbols: Vec<Symbol> = (0..count).map(|i| Symbol::Local(count * (row + 1) + i)).collect();
+            *eliminated = symbols.iter().map(|symbol| graph.symbol(*symbol)).collect();
+            let residual = columns.iter().zip(&tool).map(|(column, tool)| {
+                let product = dot(graph, eliminated, column);
+                graph.sub(product, tool[row])
+            });
+            sets.push((symbols, residual.collect()));
+        }
+        let transposed = (0..count).map(|i| columns.iter().map(|column| column[i]).collect()).collect();
+        (parts, vec![closed, Implicit { sets, columns: transposed, home: None }], home)
+    }
+
     /// Returns the equations of all loops, which are zero where these close.
     pub(super) fn residual(&self, graph: &mut Graph) -> Vec<Node> {
         let mut residual = Vec::new();
@@ -67,6 +111,11 @@ impl<'s> Parts<'s> {
             residual.extend(closure::residual(graph, *ends, closure, *length, |frame| *view.pose(frame)));
         }
         residual
+    }
+
+    /// Returns an axis of the tool in `F_0`.
+    pub(crate) fn tool_axis(&self, axis: usize) -> Vector {
+        self.whole.pose(Some(self.whole.tool())).axes[axis]
     }
 
     /// Iterates over the loops: their frames and conditions.
@@ -159,7 +208,7 @@ impl<'s> Parts<'s> {
     }
 
     /// Returns the displacement of the tool due to errors of all frames.
-    pub(super) fn by_errors(&self, graph: &mut Graph, errors: &[[Node; 6]]) -> [Vector; 2] {
+    pub(crate) fn by_errors(&self, graph: &mut Graph, errors: &[[Node; 6]]) -> [Vector; 2] {
         let none = [graph.zero(); 6];
         let of_frame = |(errors, free): (&[Node; 6], &bool)| if *free { none } else { *errors };
         let errors: Vec<[Node; 6]> = errors.iter().zip(&self.free).map(of_frame).collect();

@@ -84,7 +84,7 @@ fn worst_cases_by_hand_are_enclosed() {
         (one_joint(&[0.1, 0.2], [0.4, 1.2]), 1.3),
     ];
     for (spec, exact) in cases {
-        let mut magnitudes = Magnitudes::new(&spec);
+        let mut magnitudes = Magnitudes::new(&spec, &[]);
         let total = magnitudes.total[0].clone();
         is(&bounded(&spec, &mut magnitudes, &total, &moving(&spec), &effort), exact);
     }
@@ -101,7 +101,7 @@ fn maxima_that_are_known_exactly_are_enclosed() {
         let along = 300.0 + (reach * reach - 250_000.0) / 600.0;
         let spec = two_bars(limits);
         let all = moving(&spec);
-        let mut magnitudes = Magnitudes::new(&spec);
+        let mut magnitudes = Magnitudes::new(&spec, &[]);
         let [repeatable, random, total] = kinds(&magnitudes);
         let across_z = magnitudes.across_z.clone();
         let mut bounded = |magnitude: &Magnitude| bounded(&spec, &mut magnitudes, magnitude, &all, &effort);

@@ -116,7 +116,7 @@ fn nothing_exceeds(
                 Spec::parse("chain.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
             let (robot, all) = (Interpreter::new(spec.clone()), moving(&spec));
             let box_ = part(&all, &mut random);
-            let mut magnitudes = Magnitudes::new(&spec);
+            let mut magnitudes = Magnitudes::new(&spec, &[]);
             let kinds = kinds(&magnitudes);
             let effort = Effort { boxes, ..Effort::default() };
             let bounds =

@@ -57,7 +57,7 @@ fn arm(
 /// number of boxes, more of them in a thorough run, and exceeded at no drawn place.
 fn is_certified_closely(name: &str, spec: &Spec, [few, many]: [(usize, f64); 2]) {
     let (robot, all) = (Interpreter::new(spec.clone()), moving(spec));
-    let mut magnitudes = Magnitudes::new(spec);
+    let mut magnitudes = Magnitudes::new(spec, &[]);
     let norm = magnitudes.repeatable[0].clone();
     let (boxes, gap) = if thorough() { many } else { few };
     let bound = bounded(spec, &mut magnitudes, &norm, &all, &Effort { boxes, ..Effort::default() });

@@ -5,6 +5,7 @@ mod by_hand;
 mod corners;
 mod dexterity;
 mod elastic_arms;
+mod loops;
 mod remainder;
 mod residual;
 mod robot;
@@ -57,7 +58,8 @@ fn bounded(
     box_: &[Moving],
     effort: &Effort,
 ) -> Bound {
-    largest(&mut magnitudes.graph, magnitude, box_, &|symbol| home(symbol, spec), effort, &mut |_| true)
+    let Magnitudes { graph, implicit, .. } = magnitudes;
+    largest(graph, magnitude, implicit, box_, &|symbol| home(symbol, spec), effort, &mut |_| true)
 }
 
 /// Returns the magnitudes of the repeatable sources, of the random ones, and of their sum.
@@ -150,7 +152,7 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
     let text = robot::spec(&mut random);
     let spec = Spec::parse("robot.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
     let robot = Interpreter::new(spec.clone());
-    let mut magnitudes = Magnitudes::new(&spec);
+    let mut magnitudes = Magnitudes::new(&spec, &[]);
     let all = moving(&spec);
     for _ in 0..boxes {
         let box_ = part(&all, &mut random);
@@ -165,7 +167,7 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
             })
             .collect();
         // The bound from parts must hold too.
-        let apart = magnitudes.apart.clone();
+        let apart = magnitudes.apart.clone().expect("a chain");
         let limits = limits(&mut magnitudes.graph, &apart, &box_, &|symbol| home(symbol, &spec));
         for k in 0..3 {
             let most = |row: usize| seen.iter().map(|sizes| sizes[k][row]).fold(0.0, f64::max);
@@ -254,7 +256,7 @@ fn nothing_exceeds_what_is_certified_in_many_boxes() {
         let spec = Spec::parse("robot.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
         uncertain += usize::from(text.contains("uncertainty"));
         let robot = Interpreter::new(spec.clone());
-        let mut magnitudes = Magnitudes::new(&spec);
+        let mut magnitudes = Magnitudes::new(&spec, &[]);
         let (kinds, all) = (kinds(&magnitudes), moving(&spec));
         for _ in 0..boxes {
             let box_ = part(&all, &mut random);
@@ -303,7 +305,7 @@ fn tables_that_end_at_the_limits_are_bounded() {
             );
             let spec = Spec::parse("slide.toml", &spec).unwrap_or_else(|mistakes| panic!("{mistakes}"));
             let all = moving(&spec);
-            let mut magnitudes = Magnitudes::new(&spec);
+            let mut magnitudes = Magnitudes::new(&spec, &[]);
             let norm = magnitudes.repeatable[0].clone();
             let bound = bounded(&spec, &mut magnitudes, &norm, &all, &Effort::default());
             assert!(bound.complete && bound.certified < 0.0085, "{kind} {interpolation}: {bound:?}");
@@ -325,8 +327,8 @@ fn of_many_joints_the_parts_are_known() {
         );
     }
     let spec = Spec::parse("chain.toml", &text).unwrap();
-    let mut magnitudes = Magnitudes::new(&spec);
-    let (all, apart, norm) = (moving(&spec), magnitudes.apart.clone(), magnitudes.repeatable[0].clone());
+    let mut magnitudes = Magnitudes::new(&spec, &[]);
+    let (all, apart, norm) = (moving(&spec), magnitudes.apart.clone().expect("a chain"), magnitudes.repeatable[0].clone());
     let limits = limits(&mut magnitudes.graph, &apart, &all, &|symbol| home(symbol, &spec));
     let effort = Effort { boxes: 100, at_most: limits.position[0], ..Effort::default() };
     let bound = bounded(&spec, &mut magnitudes, &norm, &all, &effort);
@@ -337,7 +339,7 @@ fn of_many_joints_the_parts_are_known() {
 #[test]
 fn boxes_that_are_chosen_to_break_it_do_not() {
     let spec = two_bars("[\"-150 deg\", \"150 deg\"]");
-    let mut magnitudes = Magnitudes::new(&spec);
+    let mut magnitudes = Magnitudes::new(&spec, &[]);
     let norm = magnitudes.repeatable[0].clone();
     let robot = Interpreter::new(spec.clone());
     let at = |low: f64, high: f64| {
@@ -386,7 +388,7 @@ fn a_kink_at_the_end_of_a_table_may_be_the_maximum() {
         e_x = "2e-3 m + 1e-3 * d + 1 m * falls(d/(1 m))"
     "#;
     let spec = Spec::parse("slide.toml", text).unwrap();
-    let mut magnitudes = Magnitudes::new(&spec);
+    let mut magnitudes = Magnitudes::new(&spec, &[]);
     let norm = magnitudes.repeatable[0].clone();
     for range in [[-1.3, 1.7], [-1.0, 1.0], [-0.7, 0.1], [-0.01, 1.9]] {
         let all = [Moving { range, ..moving(&spec)[0] }];
@@ -418,7 +420,7 @@ fn what_cancels_is_known_as_well_as_its_parts() {
         e_x = "-1e6 * d"
     "#;
     let spec = Spec::parse("cancel.toml", text).unwrap();
-    let mut magnitudes = Magnitudes::new(&spec);
+    let mut magnitudes = Magnitudes::new(&spec, &[]);
     let norm = magnitudes.repeatable[0].clone();
     let all = moving(&spec);
     let bound = bounded(&spec, &mut magnitudes, &norm, &all, &Effort::default());

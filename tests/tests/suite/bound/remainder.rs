@@ -10,16 +10,16 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{given, home, moving, part, place, robot, robots};
 
-fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Bound {
-    let Remainder { mut graph, magnitude, share } = Remainder::new(spec);
+pub(super) fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Bound {
+    let Remainder { mut graph, magnitude, share, implicit } = Remainder::new(spec, &[]);
     let share = Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 };
     let moving = [box_, &[share]].concat();
-    largest(&mut graph, &magnitude, &moving, &|symbol| home(symbol, spec), effort, &mut |_| true)
+    largest(&mut graph, &magnitude, &implicit, &moving, &|symbol| home(symbol, spec), effort, &mut |_| true)
 }
 
 /// Returns the distance of the tool point of the exact chain from that of `J_e ε` of the repeatable
 /// sources, and a bound of its rounding error.
-fn difference(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[f64; 2]> {
+pub(super) fn difference(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[f64; 2]> {
     let description = robot.description();
     let magnitudes = description.sources.iter().map(|source| match source.class {
         Class::Repeatable => 1.0,

@@ -20,7 +20,7 @@ fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<[Bound; 2]> 
     let share = Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 };
     let moving = [box_, &[share]].concat();
     let mut of = |magnitude: &Magnitude| {
-        largest(&mut graph, magnitude, &moving, &|symbol| home(symbol, spec), effort, &mut |_| true)
+        largest(&mut graph, magnitude, &[], &moving, &|symbol| home(symbol, spec), effort, &mut |_| true)
     };
     let none = Bound { found: 0.0, certified: f64::INFINITY, at: Vec::new(), boxes: 0, complete: false };
     Some([of(&point), turn.as_ref().map_or(none, of)])

@@ -1,0 +1,301 @@
+//! Unknowns that equations define, enclosed by a parametric step of Krawczyk's method.
+//!
+//! With the names x = m + δ in a box and `F(x, y) = 0`, let `y₀` be the solution at the centre, C
+//! close to `F_y(m, y₀)⁻¹`, and `ỹ(x)` the solution to first order. If
+//!
+//! ```text
+//! |C F(x, ỹ(x))| + |I − C F_y(x, Y)| r < r        with Y = ỹ(x) ± r
+//! ```
+//!
+//! for every x of the box, then there is exactly one solution in Y for each x, `F_y` is regular
+//! there, and the solution is continuous in x; it lies in `ỹ − C F(x, ỹ) ± |I − C F_y| r`
+//! (Neumaier, *Interval Methods for Systems of Equations*, 1990, section 5.1). Forms that are
+//! affine in the names keep what `ỹ` and F have in common.
+//!
+//! The unknowns of loops are those that are reached from home: the straight way from there is cut
+//! into pieces, each such a box of one dimension, whose solutions continue each other.
+
+use abbe_codegen::chain::Implicit;
+use abbe_codegen::graph::Graph;
+use abbe_spec::expr::Symbol;
+use nalgebra::{DMatrix, DVector};
+
+use crate::affine::{Affine, UNIT, above};
+use crate::tape::{Tape, names};
+
+/// Largest number of Newton's steps.
+const STEPS: usize = 20;
+/// Largest number of radii that are tried.
+const RADII: usize = 6;
+/// Shortest piece of the way from home, as a share of it.
+const SHORTEST: f64 = 1.0 / 4096.0;
+
+/// What determines the unknowns, and where they are at home.
+pub(crate) struct Unknowns {
+    /// Values of the names at home.
+    home: Vec<f64>,
+    stages: Vec<Stage>,
+    /// Number of names and unknowns.
+    count: usize,
+}
+
+/// Sets of unknowns with the same derivatives.
+struct Stage {
+    /// Register of the first unknown; the others follow, set by set.
+    first: usize,
+    sets: usize,
+    residual: Tape,
+    columns: Tape,
+    home: Option<Vec<f64>>,
+}
+
+/// An enclosure of the unknowns of a stage, and the radii within which they are the only solution.
+struct Enclosure<const N: usize> {
+    forms: Vec<Affine<N>>,
+    radii: Vec<f64>,
+}
+
+/// Registers of evaluations, which are reused.
+#[derive(Default)]
+pub(crate) struct Buffers<const N: usize> {
+    pub(crate) registers: Vec<Affine<N>>,
+    points: Vec<Affine<0>>,
+    pieces: Vec<Affine<1>>,
+}
+
+impl Unknowns {
+    /// Returns the unknowns on which some symbols depend, and the symbols of all names and
+    /// unknowns.
+    pub(crate) fn new(
+        graph: &Graph,
+        implicit: &[Implicit],
+        names: &[(Symbol, f64)],
+        symbols: &[Symbol],
+        fixed: impl Fn(Symbol) -> f64,
+    ) -> (Self, Vec<Symbol>) {
+        let mut all: Vec<Symbol> = names.iter().map(|(symbol, _)| *symbol).collect();
+        let mut needed = Vec::new();
+        for implicit in implicit {
+            let is_needed = |unknowns: &[Symbol]| unknowns.iter().any(|unknown| symbols.contains(unknown));
+            let sets: Vec<_> = implicit.sets.iter().filter(|(unknowns, _)| is_needed(unknowns)).collect();
+            if !sets.is_empty() {
+                needed.push((all.len(), implicit, sets.clone()));
+                all.extend(sets.iter().flat_map(|(unknowns, _)| unknowns));
+            }
+        }
+        let stage = |(first, implicit, sets): (usize, &Implicit, Vec<&(Vec<Symbol>, Vec<_>)>)| {
+            let residual: Vec<_> = sets.iter().flat_map(|(_, residual)| residual.iter().copied()).collect();
+            Stage {
+                first,
+                sets: sets.len(),
+                residual: Tape::new(graph, &residual, &all, &fixed),
+                columns: Tape::new(graph, &implicit.columns.concat(), &all, &fixed),
+                home: implicit.home.clone(),
+            }
+        };
+        let stages = needed.into_iter().map(stage).collect();
+        let home = names.iter().map(|(_, home)| *home).collect();
+        (Self { home, stages, count: all.len() }, all)
+    }
+
+    /// Returns the forms of the names and of the unknowns; `None` if the unknowns may not exist
+    /// within the box, or may meet other solutions there.
+    pub(crate) fn enclose<const N: usize>(
+        &self,
+        buffers: &mut Buffers<N>,
+        centres: &[f64],
+        halves: &[f64],
+    ) -> Option<Vec<Affine<N>>> {
+        let reached = self.reached(buffers, centres)?;
+        let mut inputs = names(centres, halves)?;
+        inputs.resize(self.count, Affine::known(0.0, 0.0));
+        for stage in &self.stages {
+            let start = &reached[stage.first..][..stage.count()];
+            stage.enclose(&mut buffers.registers, &mut buffers.points, &mut inputs, start)?;
+        }
+        Some(inputs)
+    }
+
+    /// Returns the names and unknowns at a point, on the straight way from home.
+    fn reached<const N: usize>(&self, buffers: &mut Buffers<N>, point: &[f64]) -> Option<Vec<f64>> {
+        let mut values = [&self.home[..], &vec![0.0; self.count - self.home.len()]].concat();
+        for stage in &self.stages {
+            let home = stage.home.iter().flatten();
+            values[stage.first..].iter_mut().zip(home).for_each(|(value, home)| *value = *home);
+        }
+        let followed: Vec<&Stage> = self.stages.iter().filter(|stage| stage.home.is_some()).collect();
+        let (mut share, mut step) = (0.0, 1.0_f64);
+        let at = |share: f64| -> Vec<f64> {
+            let ends = self.home.iter().zip(point);
+            ends.map(|(home, end)| if share < 1.0 { home + share * (end - home) } else { *end }).collect()
+        };
+        while share < 1.0 && !followed.is_empty() {
+            let end = (share + step).min(1.0);
+            match self.piece(buffers, &followed, &values, [at(share), at(end)]) {
+                Some(found) => (values, share, step) = (found, end, 2.0 * step),
+                None if step < SHORTEST => return None,
+                None => step *= 0.5,
+            }
+        }
+        values[..point.len()].copy_from_slice(point);
+        Some(values)
+    }
+
+    /// Returns the names and unknowns at the end of a piece of the way, from those at its begin.
+    fn piece<const N: usize>(
+        &self,
+        buffers: &mut Buffers<N>,
+        followed: &[&Stage],
+        values: &[f64],
+        [from, to]: [Vec<f64>; 2],
+    ) -> Option<Vec<f64>> {
+        let mut inputs: Vec<Affine<1>> = vec![Affine::known(0.0, 0.0); self.count];
+        let mut end: Vec<Affine<0>> = vec![Affine::known(0.0, 0.0); self.count];
+        for (i, (from, to)) in from.iter().zip(&to).enumerate() {
+            // The rest covers the rounding of the ends.
+            let rest = above(4.0 * UNIT * (from.abs() + to.abs()));
+            let half = 0.5 * (to - from);
+            inputs[i] = Affine::new(from + half, [half], if half == 0.0 { 0.0 } else { rest });
+            end[i] = Affine::known(*to, 0.0);
+        }
+        for stage in followed {
+            let all = stage.first..stage.first + stage.count();
+            let start = &values[all.clone()];
+            let piece = stage.enclose(&mut buffers.pieces, &mut buffers.points, &mut inputs, start)?;
+            let near: Vec<f64> = piece.forms.iter().map(|form| form.centre + form.slopes[0]).collect();
+            let mut points = Vec::new();
+            stage.enclose(&mut points, &mut buffers.points, &mut end, &near)?;
+            for (i, (form, radius)) in piece.forms.iter().zip(&piece.radii).enumerate() {
+                let ends = [start[i] - (form.centre - form.slopes[0]), end[all.start + i].centre - near[i]];
+                if !ends.iter().all(|distance| distance.abs() <= *radius) {
+                    return None;
+                }
+            }
+        }
+        Some(end.iter().map(|form| form.centre).collect())
+    }
+}
+
+impl Stage {
+    fn count(&self) -> usize {
+        self.residual.outputs.len()
+    }
+
+    /// Encloses the unknowns and writes them to the inputs.
+    fn enclose<const N: usize>(
+        &self,
+        registers: &mut Vec<Affine<N>>,
+        points: &mut Vec<Affine<0>>,
+        inputs: &mut [Affine<N>],
+        start: &[f64],
+    ) -> Option<Enclosure<N>> {
+        let (values, inverse) = self.solve(points, inputs, start)?;
+        let unknowns = self.first..self.first + self.count();
+        let known = values.iter().map(|value| Affine::known(*value, 0.0));
+        inputs[unknowns.clone()].iter_mut().zip(known).for_each(|(input, known)| *input = known);
+        let change = self.times(&inverse, &self.residual.evaluate_at(registers, inputs).0);
+        for ((input, value), change) in inputs[unknowns.clone()].iter_mut().zip(&values).zip(&change) {
+            *input = Affine::new(value - change.centre, change.neg().slopes, 0.0);
+        }
+        let excess = self.times(&inverse, &self.residual.evaluate_at(registers, inputs).0);
+        let first: Vec<Affine<N>> = inputs[unknowns.clone()].to_vec();
+        let size = |form: &Affine<N>| above(form.centre.abs() + form.radius());
+        let tiny = |form: &Affine<N>| 16.0 * UNIT * form.centre.abs() + f64::MIN_POSITIVE;
+        let mut radii: Vec<f64> =
+            first.iter().zip(&excess).map(|(form, excess)| 2.0 * size(excess) + tiny(form)).collect();
+        for _ in 0..RADII {
+            let wide = first.iter().zip(&radii).map(|(form, radius)| Affine { rest: *radius, ..*form });
+            inputs[unknowns.clone()].iter_mut().zip(wide).for_each(|(input, wide)| *input = wide);
+            let columns = self.columns.evaluate_at(registers, inputs).0;
+            let left = contraction(&inverse, &columns)?;
+            let mut next: Vec<f64> = Vec::with_capacity(radii.len());
+            for radii in radii.chunks(left.nrows()) {
+                next.extend((&left * DVector::from_column_slice(radii)).iter().map(|sum| rounded_up(*sum)));
+            }
+            let is_inside =
+                |((next, excess), radius): ((&f64, &Affine<N>), &f64)| above(*next + size(excess)) < *radius;
+            if next.iter().zip(&excess).zip(&radii).all(is_inside) {
+                let forms = first.iter().zip(&excess).zip(&next).map(|((form, excess), next)| {
+                    let form = form.sub(excess);
+                    Affine { rest: above(form.rest + next), ..form }
+                });
+                let forms: Vec<Affine<N>> = forms.collect();
+                inputs[unknowns].copy_from_slice(&forms);
+                return Some(Enclosure { forms, radii });
+            }
+            for ((radius, next), excess) in radii.iter_mut().zip(next).zip(&excess) {
+                *radius = radius.max(1.5 * (next + size(excess)));
+                if !radius.is_finite() {
+                    return None;
+                }
+            }
+        }
+        None
+    }
+
+    /// Returns the solution at the centre, and the inverse of the derivatives there.
+    fn solve<const N: usize>(
+        &self,
+        points: &mut Vec<Affine<0>>,
+        inputs: &[Affine<N>],
+        start: &[f64],
+    ) -> Option<(Vec<f64>, DMatrix<f64>)> {
+        let mut inputs: Vec<Affine<0>> = inputs.iter().map(|form| Affine::known(form.centre, 0.0)).collect();
+        let (mut values, size) = (start.to_vec(), self.count() / self.sets);
+        let mut before = f64::INFINITY;
+        for _ in 0..STEPS {
+            let known = values.iter().map(|value| Affine::known(*value, 0.0));
+            inputs[self.first..].iter_mut().zip(known).for_each(|(input, known)| *input = known);
+            let columns = self.columns.evaluate_at(points, &inputs).0;
+            let centres = columns.iter().map(|form| form.centre);
+            let inverse = DMatrix::from_iterator(size, size, centres).try_inverse()?;
+            let step = self.times(&inverse, &self.residual.evaluate_at(points, &inputs).0);
+            let mut largest = 0.0_f64;
+            for (value, step) in values.iter_mut().zip(&step) {
+                *value -= step.centre;
+                largest = largest.max(step.centre.abs());
+            }
+            if !values.iter().all(|value| value.is_finite()) {
+                return None;
+            }
+            // Without a better step, the rest is rounding, or there is no solution.
+            if largest == 0.0 || self.home.is_none() || largest > 0.5 * before {
+                return Some((values, inverse));
+            }
+            before = largest;
+        }
+        None
+    }
+
+    /// Returns C times the vector of each set.
+    fn times<const N: usize>(&self, inverse: &DMatrix<f64>, vectors: &[Affine<N>]) -> Vec<Affine<N>> {
+        let size = vectors.len() / self.sets;
+        let product = |vector: &[Affine<N>], row: usize| {
+            let scaled = |(column, form): (usize, &Affine<N>)| {
+                form.scaled(&Affine::known(inverse[(row, column)], 0.0))
+            };
+            let terms = vector.iter().enumerate().map(scaled);
+            terms.fold(Affine::known(0.0, 0.0), |sum: Affine<N>, term| sum.add(&term))
+        };
+        let vectors = vectors.chunks(size);
+        vectors.flat_map(|vector| (0..size).map(|row| product(vector, row)).collect::<Vec<_>>()).collect()
+    }
+}
+
+/// Returns upper bounds of `|I − C A|` from the columns of A.
+fn contraction<const N: usize>(inverse: &DMatrix<f64>, columns: &[Affine<N>]) -> Option<DMatrix<f64>> {
+    let size = inverse.nrows();
+    let centres = DMatrix::from_iterator(size, size, columns.iter().map(|form| form.centre));
+    let radii = DMatrix::from_iterator(size, size, columns.iter().map(Affine::radius));
+    let sizes = inverse.abs();
+    let rounding = (2 * size + 8) as f64 * UNIT;
+    let rest = &sizes * (radii + rounding * centres.abs());
+    let mut left = DMatrix::identity(size, size) - inverse * centres;
+    left.zip_apply(&rest, |left, rest| *left = rounded_up(left.abs() * (1.0 + 4.0 * UNIT) + rest));
+    left.iter().all(|entry| entry.is_finite()).then_some(left)
+}
+
+/// Returns an upper bound of a sum of up to a thousand nonnegative products.
+fn rounded_up(sum: f64) -> f64 {
+    sum * (1.0 + 4096.0 * UNIT) + f64::MIN_POSITIVE
+}
