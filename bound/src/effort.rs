@@ -12,11 +12,14 @@ pub struct Effort {
     pub samples: usize,
     /// Known upper bound of the largest value; infinite if there is none.
     pub at_most: f64,
+    /// Value below which the search ends, because so little does not matter.
+    pub nothing: f64,
 }
 
 impl Effort {
     /// A gap of 1 %, and 300,000 boxes.
-    pub const DEFAULT: Self = Self { gap: 0.01, boxes: 300_000, samples: usize::MAX, at_most: f64::INFINITY };
+    pub const DEFAULT: Self =
+        Self { gap: 0.01, boxes: 300_000, samples: usize::MAX, at_most: f64::INFINITY, nothing: 0.0 };
 }
 
 impl Default for Effort {

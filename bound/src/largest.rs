@@ -64,7 +64,12 @@ pub fn largest(
             false => name.range,
         });
     let domain: Vec<[f64; 2]> = domain.collect();
-    let value = Tape::new(graph, &[node], &symbols, still);
+    // Each of several nodes has a bound of its own.
+    let values = match has_unknowns && !magnitude.largest_of.is_empty() {
+        true => &magnitude.largest_of[..],
+        false => &[node],
+    };
+    let value = Tape::new(graph, values, &symbols, still);
     let mut slopes = Tape::new(graph, &all, &symbols, still);
     slopes.sides_jump = value.has_sides();
     let start = active.iter().zip(&domain).map(|(name, [low, high])| name.start.clamp(*low, *high)).collect();

@@ -27,7 +27,7 @@
 //! let one = graph.constant(1.0);
 //! let rest = graph.sub(one, x);
 //! let node = graph.mul(x, rest);
-//! let size = Magnitude { node, squared: false, parts: Vec::new() };
+//! let size = Magnitude { node, squared: false, parts: Vec::new(), largest_of: Vec::new() };
 //! let x = Moving { symbol: Symbol::Variable(0), range: [0.0, 1.0], home: 0.0, start: 0.0 };
 //! let bound = largest(&mut graph, &size, &[], &[x], &|_| 0.0, &Effort::default(), &mut |_| true);
 //! assert!(bound.complete && bound.found <= 0.25 && bound.certified >= 0.25);

@@ -3,11 +3,11 @@
 use crate::affine::Affine;
 use crate::corners::Corners;
 use crate::tape::Tape;
-use crate::unknowns::{Buffers, Unknowns};
+use crate::unknowns::{Buffers, Known, Unknowns};
 
 /// A value to be maximized over a box.
 pub(crate) struct Problem {
-    /// The value.
+    /// The value; with unknowns, one or more numbers whose largest it is.
     pub(crate) value: Tape,
     /// Evaluation at control points, if the value is a norm of polynomials in the names.
     pub(crate) corners: Option<Corners>,
@@ -36,23 +36,28 @@ impl Point {
 impl Problem {
     /// Returns an enclosure of the value at a point.
     pub(crate) fn value_at(&self, points: &mut Buffers<0>, at: &[f64]) -> [f64; 2] {
-        self.value_within(points, at, &vec![0.0; at.len()]).range()
+        self.value_within(points, at, &vec![0.0; at.len()], &mut None).range()
     }
 
-    /// Returns an enclosure of the value within a box; unbounded where unknowns may not exist.
+    /// Returns an enclosure of the value within a box, of the number that is largest at most;
+    /// unbounded where unknowns may not exist. Unknowns are followed from where they are `known`, which
+    /// becomes the centre.
     pub(crate) fn value_within<const N: usize>(
         &self,
         buffers: &mut Buffers<N>,
         centres: &[f64],
         halves: &[f64],
+        known: &mut Option<Known>,
     ) -> Affine<N> {
         let Some(unknowns) = &self.unknowns else {
             return self.value.evaluate(&mut buffers.registers, centres, halves).0[0];
         };
-        match unknowns.enclose(buffers, centres, halves) {
-            Some(inputs) => self.value.evaluate_at(&mut buffers.registers, &inputs).0[0],
-            None => Affine::anything(),
-        }
+        let Some(inputs) = unknowns.enclose(buffers, centres, halves, known) else {
+            return Affine::anything();
+        };
+        let values = self.value.evaluate_at(&mut buffers.registers, &inputs).0;
+        let by_end = |a: &Affine<N>, b: &Affine<N>| a.range()[1].total_cmp(&b.range()[1]);
+        values.into_iter().max_by(by_end).unwrap_or(Affine::anything())
     }
 
     /// Returns the slope of the value along each name near a point; without slopes of their own if
@@ -66,7 +71,7 @@ impl Problem {
         if self.unknowns.is_none() {
             return self.all.evaluate(&mut buffers.registers, at, halves).0.split_off(1);
         }
-        let form = self.value_within(buffers, at, halves);
+        let form = self.value_within(buffers, at, halves, &mut None);
         let slope =
             |(slope, half): (&f64, &f64)| Affine::known(if *half > 0.0 { slope / half } else { 0.0 }, 0.0);
         form.slopes.iter().zip(halves).map(slope).collect()

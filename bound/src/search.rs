@@ -77,9 +77,10 @@ impl Search {
             high: self.problem.domain.iter().map(|range| range[1]).collect(),
             most: f64::INFINITY,
             split: 0,
+            known: None,
         };
         let (centres, halves) = whole.centres();
-        let first = self.problem.value_within(&mut Buffers::<N>::default(), &centres, &halves);
+        let first = self.problem.value_within(&mut Buffers::<N>::default(), &centres, &halves, &mut None);
         let allowed = self.size(first.range()[1]);
         let nothing = if allowed.is_finite() { (NOTHING[0] * allowed).max(NOTHING[1]) } else { NOTHING[1] };
         let (mut waiting, mut boxes, mut left) = (BinaryHeap::new(), 0, f64::NEG_INFINITY);
@@ -105,7 +106,7 @@ impl Search {
             }
             let most = waiting.peek().map_or(f64::NEG_INFINITY, |waiting: &Waiting| waiting.search_box.most);
             let (found, certified) = (self.size(best.value), self.certified(most.max(left).max(best.value)));
-            if certified <= found + (self.effort.gap * found).max(nothing) {
+            if certified <= (found + (self.effort.gap * found).max(nothing)).max(self.effort.nothing) {
                 break true;
             }
             if boxes >= most_boxes || !watch(&Progress { found, certified, boxes }) {

@@ -6,7 +6,7 @@ use crate::affine::{Affine, UNIT, above};
 use crate::corners::{self, Corners};
 use crate::problem::{Point, Problem};
 use crate::slopes::SlopeBound;
-use crate::unknowns::Buffers;
+use crate::unknowns::{Buffers, Known};
 
 /// A box that may contain the largest value.
 #[derive(Clone, Debug)]
@@ -17,6 +17,9 @@ pub(crate) struct SearchBox {
     pub(crate) most: f64,
     /// Name to bisect.
     pub(crate) split: usize,
+    /// Unknowns at the centre of the box from which this one was cut, if they exist throughout it;
+    /// otherwise they are followed from home.
+    pub(crate) known: Option<Known>,
 }
 
 /// Maximum width of boxes, rad, to which slopes are applied as well. Close to a maximum they shrink
@@ -62,7 +65,11 @@ impl<'a, const N: usize> Workspace<'a, N> {
     /// it: its slope, and its part of the rest, which grows with the square of the width.
     fn look_at_forms(&mut self, mut search_box: SearchBox, found: f64) -> (Option<SearchBox>, Point) {
         let (centres, halves) = search_box.centres();
-        let form = self.problem.value_within(&mut self.buffers, &centres, &halves);
+        let form = self.problem.value_within(&mut self.buffers, &centres, &halves, &mut search_box.known);
+        if !form.rest.is_finite() {
+            // Only a box in which the unknowns exist leads to those of its parts.
+            search_box.known = None;
+        }
         search_box.most = search_box.most.min(form.range()[1]);
         if search_box.most <= found {
             return (None, Point::NONE);
@@ -75,14 +82,18 @@ impl<'a, const N: usize> Workspace<'a, N> {
         let squares: f64 = widths.iter().map(|width| width * width).sum();
         let influence = |i: usize| match form.rest.is_finite() {
             true => {
-                form.slopes.get(i).map_or(0.0, |slope| slope.abs())
+                std::env::var("RULE").ok().and_then(|r| r.parse::<f64>().ok()).unwrap_or(1.0)
+                    * form.slopes.get(i).map_or(0.0, |slope| slope.abs())
                     + form.rest * widths[i] * widths[i] / squares
             }
             false => widths[i],
         };
         let names = (0..halves.len()).filter(|i| halves[*i] > 0.0);
         search_box.split = names.max_by(|a, b| influence(*a).total_cmp(&influence(*b))).unwrap_or(0);
-        let value = self.problem.value_at(&mut self.points, &centres)[0];
+        let value = match form.centre > found {
+            true => self.problem.value_at(&mut self.points, &centres)[0],
+            false => f64::NEG_INFINITY,
+        };
         let point = if value.is_finite() { Point { value, at: centres } } else { Point::NONE };
         (Some(search_box), point)
     }

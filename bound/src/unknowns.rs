@@ -39,6 +39,9 @@ pub(crate) struct Unknowns {
     count: usize,
 }
 
+/// Names and unknowns at a point; those of linear equations are not followed.
+pub(crate) type Known = Vec<f64>;
+
 /// Sets of unknowns with the same derivatives.
 struct Stage {
     /// Register of the first unknown; the others follow, set by set.
@@ -99,14 +102,18 @@ impl Unknowns {
     }
 
     /// Returns the forms of the names and of the unknowns; `None` if the unknowns may not exist
-    /// within the box, or may meet other solutions there.
+    /// within the box, or may meet other solutions there. The way to the centre begins where `known`
+    /// was reached, or at home, and the centre becomes known.
     pub(crate) fn enclose<const N: usize>(
         &self,
         buffers: &mut Buffers<N>,
         centres: &[f64],
         halves: &[f64],
+        known: &mut Option<Known>,
     ) -> Option<Vec<Affine<N>>> {
-        let reached = self.reached(buffers, centres)?;
+        let start = known.clone().unwrap_or_else(|| self.at_home());
+        let reached = self.reached(buffers, &start, centres)?;
+        *known = Some(reached.clone());
         let mut inputs = names(centres, halves)?;
         inputs.resize(self.count, Affine::known(0.0, 0.0));
         for stage in &self.stages {
@@ -116,18 +123,29 @@ impl Unknowns {
         Some(inputs)
     }
 
-    /// Returns the names and unknowns at a point, on the straight way from home.
-    fn reached<const N: usize>(&self, buffers: &mut Buffers<N>, point: &[f64]) -> Option<Vec<f64>> {
+    /// Returns the names and unknowns at home.
+    fn at_home(&self) -> Known {
         let mut values = [&self.home[..], &vec![0.0; self.count - self.home.len()]].concat();
         for stage in &self.stages {
             let home = stage.home.iter().flatten();
             values[stage.first..].iter_mut().zip(home).for_each(|(value, home)| *value = *home);
         }
+        values
+    }
+
+    /// Returns the names and unknowns at a point, on the straight way from where they are known.
+    fn reached<const N: usize>(
+        &self,
+        buffers: &mut Buffers<N>,
+        known: &Known,
+        point: &[f64],
+    ) -> Option<Known> {
+        let mut values = known.clone();
         let followed: Vec<&Stage> = self.stages.iter().filter(|stage| stage.home.is_some()).collect();
         let (mut share, mut step) = (0.0, 1.0_f64);
         let at = |share: f64| -> Vec<f64> {
-            let ends = self.home.iter().zip(point);
-            ends.map(|(home, end)| if share < 1.0 { home + share * (end - home) } else { *end }).collect()
+            let ends = known.iter().zip(point);
+            ends.map(|(start, end)| if share < 1.0 { start + share * (end - start) } else { *end }).collect()
         };
         while share < 1.0 && !followed.is_empty() {
             let end = (share + step).min(1.0);
@@ -193,27 +211,29 @@ impl Stage {
         let unknowns = self.first..self.first + self.count();
         let known = values.iter().map(|value| Affine::known(*value, 0.0));
         inputs[unknowns.clone()].iter_mut().zip(known).for_each(|(input, known)| *input = known);
-        let change = self.times(&inverse, &self.residual.evaluate_at(registers, inputs).0);
+        let change = times(&inverse, &self.residual.evaluate_at(registers, inputs).0);
         for ((input, value), change) in inputs[unknowns.clone()].iter_mut().zip(&values).zip(&change) {
             *input = Affine::new(value - change.centre, change.neg().slopes, 0.0);
         }
-        let excess = self.times(&inverse, &self.residual.evaluate_at(registers, inputs).0);
+        let excess = times(&inverse, &self.residual.evaluate_at(registers, inputs).0);
         let first: Vec<Affine<N>> = inputs[unknowns.clone()].to_vec();
-        let size = |form: &Affine<N>| above(form.centre.abs() + form.radius());
         let tiny = |form: &Affine<N>| 16.0 * UNIT * form.centre.abs() + f64::MIN_POSITIVE;
         let mut radii: Vec<f64> =
-            first.iter().zip(&excess).map(|(form, excess)| 2.0 * size(excess) + tiny(form)).collect();
+            first.iter().zip(&excess).map(|(form, excess)| 2.0 * upper(excess) + tiny(form)).collect();
         for _ in 0..RADII {
             let wide = first.iter().zip(&radii).map(|(form, radius)| Affine { rest: *radius, ..*form });
             inputs[unknowns.clone()].iter_mut().zip(wide).for_each(|(input, wide)| *input = wide);
             let columns = self.columns.evaluate_at(registers, inputs).0;
-            let left = contraction(&inverse, &columns)?;
+            let left = contraction(&inverse, &columns);
             let mut next: Vec<f64> = Vec::with_capacity(radii.len());
             for radii in radii.chunks(left.nrows()) {
                 next.extend((&left * DVector::from_column_slice(radii)).iter().map(|sum| rounded_up(*sum)));
             }
+            if !next.iter().all(|radius| radius.is_finite()) {
+                return None;
+            }
             let is_inside =
-                |((next, excess), radius): ((&f64, &Affine<N>), &f64)| above(*next + size(excess)) < *radius;
+                |((next, excess), radius): ((&f64, &Affine<N>), &f64)| above(*next + upper(excess)) < *radius;
             if next.iter().zip(&excess).zip(&radii).all(is_inside) {
                 let forms = first.iter().zip(&excess).zip(&next).map(|((form, excess), next)| {
                     let form = form.sub(excess);
@@ -224,10 +244,7 @@ impl Stage {
                 return Some(Enclosure { forms, radii });
             }
             for ((radius, next), excess) in radii.iter_mut().zip(next).zip(&excess) {
-                *radius = radius.max(1.5 * (next + size(excess)));
-                if !radius.is_finite() {
-                    return None;
-                }
+                *radius = radius.max(1.5 * (next + upper(excess)));
             }
         }
         None
@@ -249,7 +266,7 @@ impl Stage {
             let columns = self.columns.evaluate_at(points, &inputs).0;
             let centres = columns.iter().map(|form| form.centre);
             let inverse = DMatrix::from_iterator(size, size, centres).try_inverse()?;
-            let step = self.times(&inverse, &self.residual.evaluate_at(points, &inputs).0);
+            let step = times(&inverse, &self.residual.evaluate_at(points, &inputs).0);
             let mut largest = 0.0_f64;
             for (value, step) in values.iter_mut().zip(&step) {
                 *value -= step.centre;
@@ -266,33 +283,38 @@ impl Stage {
         }
         None
     }
+}
 
-    /// Returns C times the vector of each set.
-    fn times<const N: usize>(&self, inverse: &DMatrix<f64>, vectors: &[Affine<N>]) -> Vec<Affine<N>> {
-        let size = vectors.len() / self.sets;
-        let product = |vector: &[Affine<N>], row: usize| {
-            let scaled = |(column, form): (usize, &Affine<N>)| {
-                form.scaled(&Affine::known(inverse[(row, column)], 0.0))
-            };
-            let terms = vector.iter().enumerate().map(scaled);
-            terms.fold(Affine::known(0.0, 0.0), |sum: Affine<N>, term| sum.add(&term))
-        };
-        let vectors = vectors.chunks(size);
-        vectors.flat_map(|vector| (0..size).map(|row| product(vector, row)).collect::<Vec<_>>()).collect()
+/// Returns C times some vectors, one after the other.
+fn times<const N: usize>(inverse: &DMatrix<f64>, vectors: &[Affine<N>]) -> Vec<Affine<N>> {
+    let size = inverse.nrows();
+    let mut products = vec![Affine::known(0.0, 0.0); vectors.len()];
+    for (products, vector) in products.chunks_mut(size).zip(vectors.chunks(size)) {
+        for (column, form) in vector.iter().enumerate() {
+            if form.centre == 0.0 && form.radius() == f64::MIN_POSITIVE {
+                continue;
+            }
+            for (row, product) in products.iter_mut().enumerate() {
+                *product = product.add(&form.scaled(&Affine::known(inverse[(row, column)], 0.0)));
+            }
+        }
     }
+    products
 }
 
 /// Returns upper bounds of `|I − C A|` from the columns of A.
-fn contraction<const N: usize>(inverse: &DMatrix<f64>, columns: &[Affine<N>]) -> Option<DMatrix<f64>> {
+fn contraction<const N: usize>(inverse: &DMatrix<f64>, columns: &[Affine<N>]) -> DMatrix<f64> {
     let size = inverse.nrows();
-    let centres = DMatrix::from_iterator(size, size, columns.iter().map(|form| form.centre));
-    let radii = DMatrix::from_iterator(size, size, columns.iter().map(Affine::radius));
-    let sizes = inverse.abs();
-    let rounding = (2 * size + 8) as f64 * UNIT;
-    let rest = &sizes * (radii + rounding * centres.abs());
-    let mut left = DMatrix::identity(size, size) - inverse * centres;
-    left.zip_apply(&rest, |left, rest| *left = rounded_up(left.abs() * (1.0 + 4.0 * UNIT) + rest));
-    left.iter().all(|entry| entry.is_finite()).then_some(left)
+    let products = times(inverse, columns);
+    DMatrix::from_fn(size, size, |row, column| {
+        let one = Affine::known(if row == column { -1.0 } else { 0.0 }, 0.0);
+        upper(&products[column * size + row].shifted(&one))
+    })
+}
+
+/// Returns the largest absolute value of a form.
+fn upper<const N: usize>(form: &Affine<N>) -> f64 {
+    above(form.centre.abs() + form.radius())
 }
 
 /// Returns an upper bound of a sum of up to a thousand nonnegative products.

@@ -30,12 +30,19 @@ pub struct Magnitude {
     /// Numbers of which the magnitude is a norm, and in which it is therefore convex; empty if none
     /// are known.
     pub parts: Vec<Node>,
+    /// Nodes whose largest is the node; empty if it is not the largest of several.
+    pub largest_of: Vec<Node>,
 }
 
 impl Magnitude {
     /// Returns the length of a vector.
     pub(super) fn length(graph: &mut Graph, vector: Vector) -> Self {
-        Self { node: graph.dot(vector, vector), squared: true, parts: vector.to_vec() }
+        Self {
+            node: graph.dot(vector, vector),
+            squared: true,
+            parts: vector.to_vec(),
+            largest_of: Vec::new(),
+        }
     }
 
     /// Adds a radius, which is not negative.
@@ -45,7 +52,7 @@ impl Magnitude {
         }
         let norm = if self.squared { graph.sqrt(self.node) } else { self.node };
         self.parts.push(radius);
-        Self { node: graph.add(norm, radius), squared: false, parts: self.parts }
+        Self { node: graph.add(norm, radius), squared: false, parts: self.parts, largest_of: Vec::new() }
     }
 }
 
@@ -206,7 +213,7 @@ impl Magnitudes {
             let moved: Vec<ToolDisplacement> = moved.collect();
             let symbols = g.symbols(kind.concat().as_flattened());
             let is_constant = symbols.iter().all(|symbol| matches!(symbol, Symbol::Parameter(_)));
-            let most_signed = if is_constant { MOST_SIGNED } else { 0 };
+            let most_signed = if is_constant || tree.is_some() { MOST_SIGNED } else { 0 };
             let has_parts = |place: &usize| places.iter().filter(|other| *other == place).count() > 1;
             let most_signed = if places.iter().any(has_parts) { 0 } else { most_signed };
             let [norm, x, y, z, turn] = largest_of(g, &moved, &places, most_signed);
@@ -253,7 +260,12 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], places: &[usize], most_
     let (vectors, places): (Vec<&Vec<Node>>, Vec<usize>) =
         vectors.iter().zip(places).filter(|(vector, _)| vector.iter().any(|entry| *entry != zero)).unzip();
     if let [vector] = vectors[..] {
-        return Magnitude { node: products(graph, vector, vector), squared: true, parts: vector.clone() };
+        return Magnitude {
+            node: products(graph, vector, vector),
+            squared: true,
+            parts: vector.clone(),
+            largest_of: Vec::new(),
+        };
     }
     if vectors.len() <= most_signed && vectors.iter().all(|vector| vector.len() > 1) {
         return largest_pattern(graph, &vectors);
@@ -273,18 +285,19 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], places: &[usize], most_
         };
         node = graph.add(node, size);
     }
-    Magnitude { node, squared: false, parts }
+    Magnitude { node, squared: false, parts, largest_of: Vec::new() }
 }
 
-/// Largest number of constant errors whose patterns of signs are all written down, which is faster
-/// for these: the corners of a box are control points, and there are as many more for directions.
+/// Largest number of errors whose patterns of signs are all written down, which is faster for
+/// constant ones: the corners of a box are control points, and there are as many more for
+/// directions. For trees each pattern has a bound of its own.
 const MOST_SIGNED: usize = 7;
 
 /// Returns the largest norm of the sum of vectors over all patterns of signs but that of the first.
 fn largest_pattern(graph: &mut Graph, vectors: &[&Vec<Node>]) -> Magnitude {
     let parts = vectors.iter().copied().flatten().copied().collect();
     let Some((first, others)) = vectors.split_first() else {
-        return Magnitude { node: graph.zero(), squared: true, parts };
+        return Magnitude { node: graph.zero(), squared: true, parts, largest_of: Vec::new() };
     };
     let mut sums = vec![(*first).clone()];
     for vector in others {
@@ -296,8 +309,8 @@ fn largest_pattern(graph: &mut Graph, vectors: &[&Vec<Node>]) -> Magnitude {
         sums = sums.iter().flat_map(|sum| [true, false].map(|is_added| with(graph, sum, is_added))).collect();
     }
     let squares: Vec<Node> = sums.iter().map(|sum| products(graph, sum, sum)).collect();
-    let node = squares.into_iter().reduce(|a, b| graph.max(a, b)).unwrap_or(graph.zero());
-    Magnitude { node, squared: true, parts }
+    let node = squares.iter().copied().reduce(|a, b| graph.max(a, b)).unwrap_or(graph.zero());
+    Magnitude { node, squared: true, parts, largest_of: squares }
 }
 
 /// Returns a unit vector of one, two or three entries.

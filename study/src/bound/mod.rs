@@ -77,8 +77,14 @@ impl Bound {
         let start = domain.worst_of_workspace(machine, study);
         let (start, in_study) =
             start.as_ref().map_or((None, None), |(at, worst)| (Some(&at[..]), Some(*worst)));
-        let mut searches =
-            Searches { job: self, domain: &domain, implicit: &implicit, begun: Instant::now(), done: 0 };
+        let mut searches = Searches {
+            job: self,
+            domain: &domain,
+            implicit: &implicit,
+            begun: Instant::now(),
+            done: 0,
+            found: [0.0; 2],
+        };
         let repeatable =
             searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), start, notes)?;
         let random = searches.error_bounds(&mut graph, &random, &across_z[1], at_most(1), start, notes)?;
@@ -122,6 +128,9 @@ impl Bound {
 /// then the remainder, the residual after one step, the dexterity and the stiffness.
 const SEARCHES: usize = 22;
 
+/// Share of the gap below which an error is nothing beside a larger one of a machine with loops.
+const NOTHING: f64 = 0.1;
+
 /// Progress through the searches.
 struct Searches<'a> {
     job: &'a Bound,
@@ -131,6 +140,8 @@ struct Searches<'a> {
     begun: Instant,
     /// Number of completed searches.
     done: usize,
+    /// Largest errors that were found, of position and of orientation.
+    found: [f64; 2],
 }
 
 impl Searches<'_> {
@@ -143,7 +154,14 @@ impl Searches<'_> {
         from: Option<&[f64]>,
         notes: &mut dyn Notes,
     ) -> Result<ErrorBounds, Diagnostics> {
-        let [norm_effort, orientation_effort] = at_most.map(|at_most| Effort { at_most, ..self.job.effort });
+        let effort = self.job.effort;
+        // What loops determine is enclosed with a rest, even where it is zero.
+        let share = if self.implicit.is_empty() { 0.0 } else { NOTHING * effort.gap };
+        let [norm_effort, orientation_effort] = [0, 1].map(|of: usize| Effort {
+            at_most: at_most[of],
+            nothing: share * self.found[of],
+            ..effort
+        });
         let norm = self.largest(graph, norm, from, &norm_effort, notes)?;
         // A component of the position error cannot exceed its norm.
         let component_effort = Effort { at_most: norm.certified, ..norm_effort };
@@ -161,6 +179,7 @@ impl Searches<'_> {
         let y = self.largest(graph, y, start, &row_effort, notes)?;
         let z = self.largest(graph, z, None, &component_effort, notes)?;
         let orientation = self.largest(graph, orientation, None, &orientation_effort, notes)?;
+        self.found = [self.found[0].max(norm.found), self.found[1].max(orientation.found)];
         let largest = |bound| ErrorBound::new(&bound, self.domain);
         Ok(ErrorBounds {
             norm: largest(norm),
