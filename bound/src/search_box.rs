@@ -82,9 +82,8 @@ impl<'a, const N: usize> Workspace<'a, N> {
         let squares: f64 = widths.iter().map(|width| width * width).sum();
         let influence = |i: usize| match form.rest.is_finite() {
             true => {
-                std::env::var("RULE").ok().and_then(|r| r.parse::<f64>().ok()).unwrap_or(1.0)
-                    * form.slopes.get(i).map_or(0.0, |slope| slope.abs())
-                    + form.rest * widths[i] * widths[i] / squares
+                let slope = form.slopes.get(i).map_or(0.0, |slope| slope.abs());
+                slope + form.rest * widths[i] * widths[i] / squares
             }
             false => widths[i],
         };

@@ -49,6 +49,8 @@ struct Stage {
     sets: usize,
     residual: Tape,
     columns: Tape,
+    /// Derivatives of the residual by the names; `None` if it depends on earlier unknowns.
+    slopes: Option<Tape>,
     home: Option<Vec<f64>>,
 }
 
@@ -70,7 +72,7 @@ impl Unknowns {
     /// Returns the unknowns on which some symbols depend, and the symbols of all names and
     /// unknowns.
     pub(crate) fn new(
-        graph: &Graph,
+        graph: &mut Graph,
         implicit: &[Implicit],
         names: &[(Symbol, f64)],
         symbols: &[Symbol],
@@ -88,7 +90,12 @@ impl Unknowns {
         }
         let stage = |(first, implicit, sets): (usize, &Implicit, Vec<&(Vec<Symbol>, Vec<_>)>)| {
             let residual: Vec<_> = sets.iter().flat_map(|(_, residual)| residual.iter().copied()).collect();
+            let depends = graph.symbols(&residual);
+            let is_first = !all[names.len()..first].iter().any(|unknown| depends.contains(unknown));
+            let mut slope = |name: &(Symbol, f64)| graph.diff_all(&residual, name.0);
+            let slopes: Vec<_> = names.iter().filter(|_| is_first).flat_map(&mut slope).collect();
             Stage {
+                slopes: is_first.then(|| Tape::new(graph, &slopes, &all, &fixed)),
                 first,
                 sets: sets.len(),
                 residual: Tape::new(graph, &residual, &all, &fixed),
@@ -215,8 +222,11 @@ impl Stage {
         for ((input, value), change) in inputs[unknowns.clone()].iter_mut().zip(&values).zip(&change) {
             *input = Affine::new(value - change.centre, change.neg().slopes, 0.0);
         }
-        let excess = times(&inverse, &self.residual.evaluate_at(registers, inputs).0);
         let first: Vec<Affine<N>> = inputs[unknowns.clone()].to_vec();
+        let excess = match &self.slopes {
+            Some(slopes) => self.excess(slopes, registers, points, inputs, &inverse),
+            None => times(&inverse, &self.residual.evaluate_at(registers, inputs).0),
+        };
         let tiny = |form: &Affine<N>| 16.0 * UNIT * form.centre.abs() + f64::MIN_POSITIVE;
         let mut radii: Vec<f64> =
             first.iter().zip(&excess).map(|(form, excess)| 2.0 * upper(excess) + tiny(form)).collect();
@@ -248,6 +258,51 @@ impl Stage {
             }
         }
         None
+    }
+
+    /// Returns `C F(x, ỹ(x))` in mean value form. With the names x and ỹ as functions of the t of
+    /// affine forms,
+    ///
+    /// ```text
+    /// C F = C F(m, y₀) + Σ_j t_j ∫₀¹ C (F_x ∂x/∂t_j + F_y ∂ỹ/∂t_j)(s t) ds
+    /// ```
+    ///
+    /// The sums are nearly zero, and what the rows of F have in common cancels in them.
+    fn excess<const N: usize>(
+        &self,
+        slopes: &Tape,
+        registers: &mut Vec<Affine<N>>,
+        points: &mut Vec<Affine<0>>,
+        inputs: &[Affine<N>],
+        inverse: &DMatrix<f64>,
+    ) -> Vec<Affine<N>> {
+        let centres: Vec<Affine<0>> = inputs.iter().map(|form| Affine::known(form.centre, 0.0)).collect();
+        let mut sum: Vec<Affine<N>> = times(inverse, &self.residual.evaluate_at(points, &centres).0)
+            .iter()
+            .map(|form| Affine::known(form.centre, form.rest))
+            .collect();
+        let (count, size) = (sum.len(), inverse.nrows());
+        let by_names = times(inverse, &slopes.evaluate_at(registers, inputs).0);
+        let by_unknowns = times(inverse, &self.columns.evaluate_at(registers, inputs).0);
+        for (row, sum) in sum.iter_mut().enumerate() {
+            let (set, row_of_set) = (row / size, row % size);
+            let of_names = by_names.chunks(count).map(|derivatives| &derivatives[row]);
+            let of_unknowns = by_unknowns.chunks(size).map(|derivatives| &derivatives[row_of_set]);
+            let unknowns = &inputs[self.first + set * size..][..size];
+            let all: Vec<_> = inputs.iter().zip(of_names).chain(unknowns.iter().zip(of_unknowns)).collect();
+            for j in 0..N {
+                let mut slope = Affine::known(0.0, 0.0);
+                for (form, derivative) in all.iter().filter(|(form, _)| form.slopes[j] != 0.0) {
+                    slope = derivative.scaled(&Affine::known(form.slopes[j], 0.0)).add(&slope);
+                }
+                let moving = Affine::new(0.0, std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 }), 0.0);
+                *sum = sum.add(&moving.mul(&slope));
+            }
+            for (form, derivative) in all.iter().filter(|(form, _)| form.rest > 0.0) {
+                sum.rest = above(sum.rest + form.rest * upper(derivative));
+            }
+        }
+        sum
     }
 
     /// Returns the solution at the centre, and the inverse of the derivatives there.

@@ -33,10 +33,6 @@ pub struct Doctor<'a> {
 impl Doctor<'_> {
     /// Searches the interpretations.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        self.machine.require_chain(
-            "conventions cannot be searched",
-            "compare a few rows with `abbe jacobian`, which prints the pose at given joint values",
-        )?;
         let columns = Columns::read(self.data, &self.machine.spec, MOST_ROWS, notes)?;
         let kinematics = Kinematics::new(&self.machine.spec)
             .map_err(|error| mistake::whole(&self.machine.origin, &error))?;

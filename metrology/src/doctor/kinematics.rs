@@ -1,4 +1,4 @@
-//! Poses of a spec, split into base, chain and tool.
+//! Poses of a spec, split into base, the frames up to the tool, and tool.
 
 use abbe::analysis::sampling;
 use abbe::{Error, Manipulator, Pose, VariableKind};
@@ -14,7 +14,9 @@ pub(super) struct Kinematics {
     pub(super) other: Option<Interpreter>,
     parameters: Vec<f64>,
     kinds: Vec<VariableKind>,
-    /// Number of frames before the first joint.
+    /// Frames from the base to the tool.
+    path: Vec<usize>,
+    /// Number of these before the first joint; 0 with passive joints, which have no order.
     fixed: usize,
     pub(super) has_tool: bool,
     metres: f64,
@@ -27,13 +29,17 @@ impl Kinematics {
             let frames = spec.frames.iter().map(in_other_convention).collect();
             Interpreter::new(Spec { frames, ..spec.clone() })
         });
-        let moving = spec.variables_of_transforms();
-        let fixed = moving.iter().take_while(|variables| variables.is_empty()).count().min(spec.frames.len());
+        let (moving, path) = (spec.variables_of_transforms(), spec.path(Some(spec.tool_frame)));
+        let fixed = match spec.passive.is_empty() {
+            true => path.iter().take_while(|frame| moving[**frame].is_empty()).count(),
+            false => 0,
+        };
         let parameters = sampling::nominal_parameters(as_written.description());
         let home: Vec<f64> = spec.variables.iter().map(|variable| variable.home).collect();
         let mut kinematics = Self {
             parameters,
             kinds: spec.variables.iter().map(|variable| variable.kind).collect(),
+            path,
             fixed,
             has_tool: true,
             metres: spec.length.in_metres(),
@@ -64,10 +70,10 @@ impl Chain for Kinematics {
         let interpreter = self.other.as_ref().filter(|_| other_convention).unwrap_or(&self.as_written);
         let mut transforms = vec![Pose::IDENTITY; interpreter.description().frames.len() + 1];
         interpreter.transforms(q, &self.parameters, &mut transforms)?;
-        let product = |all: &[Pose]| all.iter().fold(Pose::IDENTITY, |product, next| product.then(next));
-        let (tool, frames) = transforms.split_last().unwrap_or((&Pose::IDENTITY, &[]));
-        let (base, chain) = frames.split_at(self.fixed.min(frames.len()));
-        Ok([product(base), product(chain), *tool])
+        let product =
+            |all: &[usize]| all.iter().fold(Pose::IDENTITY, |product, next| product.then(&transforms[*next]));
+        let (base, chain) = self.path.split_at(self.fixed);
+        Ok([product(base), product(chain), transforms[transforms.len() - 1]])
     }
 }
 

@@ -240,9 +240,13 @@ fn first_order_remainder(report: &Report) -> Option<String> {
     };
     // Two digits: it is no closer than that.
     let decimals = number::decimals(certified, 2);
+    let exact = match report.spec.is_serial() {
+        true => "chain A_1 E_1 … A_n E_n T",
+        false => "machine",
+    };
     Some(format!(
-        "Within the box, the tool point of the exact chain A_1 E_1 … A_n E_n T differs from first \
-         order by no more than {} {} (repeatable sources).",
+        "Within the box, the tool point of the exact {exact} differs from first order by no more than {} {} \
+         (repeatable sources).",
         number::rounded_up(certified, decimals),
         report.length
     ))

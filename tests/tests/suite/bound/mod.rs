@@ -11,6 +11,7 @@ mod residual;
 mod robot;
 mod stiffness;
 
+use abbe::analysis::sampling::nominal_parameters;
 use abbe::{Class, Manipulator, Orientation};
 use abbe_bound::{Bound, Effort, Moving, largest, limits};
 use abbe_codegen::chain::{DIRECTION, Magnitude, Magnitudes};
@@ -71,10 +72,11 @@ fn kinds(magnitudes: &Magnitudes) -> [[Magnitude; 5]; 3] {
 /// in the worst case: each the norm, x, y, z, and the norm of rows 4–6.
 fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
     let description = robot.description();
+    let s = nominal_parameters(description);
     let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
-    robot.error_jacobian(q, &[], &mut columns).ok()?;
+    robot.error_jacobian(q, &s, &mut columns).ok()?;
     let mut effects = vec![0.0; description.effects.len()];
-    robot.effects(q, &[], u, &mut effects).ok()?;
+    robot.effects(q, &s, u, &mut effects).ok()?;
     let mut moved = vec![[0.0; 6]; description.sources.len()];
     for (effect, value) in description.effects.iter().zip(&effects) {
         let column = &columns[6 * effect.frame + effect.component.index()];
@@ -328,7 +330,8 @@ fn of_many_joints_the_parts_are_known() {
     }
     let spec = Spec::parse("chain.toml", &text).unwrap();
     let mut magnitudes = Magnitudes::new(&spec, &[]);
-    let (all, apart, norm) = (moving(&spec), magnitudes.apart.clone().expect("a chain"), magnitudes.repeatable[0].clone());
+    let (all, apart, norm) =
+        (moving(&spec), magnitudes.apart.clone().expect("a chain"), magnitudes.repeatable[0].clone());
     let limits = limits(&mut magnitudes.graph, &apart, &all, &|symbol| home(symbol, &spec));
     let effort = Effort { boxes: 100, at_most: limits.position[0], ..Effort::default() };
     let bound = bounded(&spec, &mut magnitudes, &norm, &all, &effort);

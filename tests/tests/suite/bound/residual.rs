@@ -22,7 +22,14 @@ fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<[Bound; 2]> 
     let mut of = |magnitude: &Magnitude| {
         largest(&mut graph, magnitude, &[], &moving, &|symbol| home(symbol, spec), effort, &mut |_| true)
     };
-    let none = Bound { found: 0.0, certified: f64::INFINITY, at: Vec::new(), boxes: 0, complete: false };
+    let none = Bound {
+        found: 0.0,
+        certified: f64::INFINITY,
+        at: Vec::new(),
+        boxes: 0,
+        complete: false,
+        unbounded: None,
+    };
     Some([of(&point), turn.as_ref().map_or(none, of)])
 }
 
