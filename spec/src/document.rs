@@ -261,6 +261,11 @@ impl<'d> Item<'d> {
         self.document.refuse(self.span(), message, help)
     }
 
+    /// Records a mistake of the key with its help, and returns none.
+    pub fn refuse_key<T>(&self, message: impl Into<String>, help: impl Into<String>) -> Option<T> {
+        self.document.refuse(self.key_span.clone(), message, help)
+    }
+
     /// Records that a value has another type than expected.
     fn wrong_type<T>(&self, expected: &str) -> Option<T> {
         let found = self.value.get_ref().type_str();
@@ -299,9 +304,14 @@ impl<'d> Item<'d> {
         self.as_table().or_else(|| self.wrong_type("a table"))
     }
 
+    /// Reads a table; mistakes call it by `name`.
+    pub fn named(&self, name: impl Into<String>) -> Option<Section<'d>> {
+        Some(Section { name: name.into(), ..self.section()? })
+    }
+
     /// Reads a table with these keys; mistakes call it by `name`.
     pub fn table(&self, name: impl Into<String>, keys: &[&Keys]) -> Option<Section<'d>> {
-        let section = Section { name: name.into(), ..self.section()? };
+        let section = self.named(name)?;
         section.check_keys(keys);
         Some(section)
     }

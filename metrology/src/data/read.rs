@@ -83,8 +83,7 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
         return None;
     }
     root.check_keys(&[&keys::FILE, &keys::FORMS, &keys::STANDS]);
-    let head = root.required("data")?;
-    let head = head.table("[data]", &[&keys::DATA])?;
+    let head = root.required("data")?.table("[data]", &[&keys::DATA])?;
     let joints = joints(root, spec);
     let inputs = inputs(root, spec);
     let named = |key: &str| match head.get(key) {
@@ -184,8 +183,7 @@ fn layout(
     if form.key == "target" {
         return targets(&form, frame);
     }
-    let mut section = form.section()?;
-    section.name = format!("[{}]", form.key);
+    let section = form.named(format!("[{}]", form.key))?;
     let factor = unit(&section, Dimension::LENGTH);
     match form.key.as_str() {
         "point" => {
@@ -211,8 +209,7 @@ fn turn(section: &Section<'_>) -> Option<Turn> {
     }
     if let Some(item) = section.get("quaternion") {
         let section = item.table("quaternion", &[&keys::QUATERNION])?;
-        let order = section.required("order")?;
-        let order = order.choice(&QUATERNION_ORDERS);
+        let order = section.required("order")?.choice(&QUATERNION_ORDERS);
         return Some(Turn::Quaternion(Box::new(columns(&section, "columns")?), order?));
     }
     if let Some(item) = section.get("rotation_vector") {
@@ -254,7 +251,7 @@ fn targets(item: &Item<'_>, frame: &TargetFrame) -> Option<Layout> {
         Some(_) => return Some(Layout::Targets(targets)),
     };
     let help = "move one of them off the line, or measure a single one as `[point]`";
-    item.document.refuse(item.key_span.clone(), mistake, help)
+    item.refuse_key(mistake, help)
 }
 
 /// Reads `[accept]`: limits for rows that were not used in a fit.

@@ -150,7 +150,7 @@ fn corners(section: &Section<'_>) -> Option<Vec<[f64; 3]>> {
             }
             if let Some(pitch) = section.get("pitch") {
                 let message = "`pitch` belongs to `board`, and this board lists its `corners`";
-                return section.document.refuse(pitch.key_span.clone(), message, "remove it");
+                return pitch.refuse_key(message, "remove it");
             }
             let (message, help) = match corners.len() {
                 0..4 => ("a camera needs at least four corners", "a tag has four"),

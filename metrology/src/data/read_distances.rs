@@ -15,7 +15,7 @@ pub(super) fn distances(root: &Section<'_>, layout: Option<Layout>) -> Option<La
     let Some(list) = root.get("distance") else { return layout };
     let Layout::Instruments(mut all) = layout? else {
         let message = "`[[distance]]` is between fixtures of instruments, and this map has no [[instrument]]";
-        return root.document.refuse(list.key_span.clone(), message, "remove it");
+        return list.refuse_key(message, "remove it");
     };
     for item in list.array("an array of tables [[distance]]")? {
         let section = item.table("this [[distance]]", &[&keys::DISTANCE])?;

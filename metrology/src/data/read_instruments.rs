@@ -43,8 +43,7 @@ pub(super) fn instruments(
     };
     let mut complete = true;
     for item in &items {
-        let mut section = item.section()?;
-        section.name = "this [[instrument]]".to_owned();
+        let section = item.named("this [[instrument]]")?;
         match instrument(&section, &targets, stated, &mut all) {
             Some(one) if all.list.iter().any(|other| other.name == one.name) => {
                 let message = format!("duplicate instrument `{}`", one.name.escape_debug());
@@ -60,8 +59,7 @@ pub(super) fn instruments(
 fn targets(item: &Item<'_>, frame: &TargetFrame) -> Option<Vec<Named>> {
     let items = item.array("an array of tables [[target]]")?;
     let one = |item: &Item<'_>| {
-        let mut section = item.section()?;
-        section.name = "this [[target]]".to_owned();
+        let section = item.named("this [[target]]")?;
         section.check_names(&["name", "position"]);
         let name = section.required("name").and_then(|item| item.string());
         let item = section.required("position")?;
@@ -207,11 +205,7 @@ fn zero(section: &Section<'_>, kind: &InstrumentKind) -> Option<(f64, bool)> {
         (Some(_), Some(nominal)) => {
             let message = "`nominal_radius` is the approximate value of an unknown radius, but this radius \
                  is known";
-            section.document.refuse(
-                nominal.key_span.clone(),
-                message,
-                "remove it, or write `radius = \"unknown\"`",
-            )
+            nominal.refuse_key(message, "remove it, or write `radius = \"unknown\"`")
         }
         (Some(item), None) => item.quantity(Dimension::LENGTH).map(|value| (sign * value, true)),
     }

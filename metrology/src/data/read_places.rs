@@ -34,7 +34,7 @@ pub(super) fn stations(root: &Section<'_>, head: &Section<'_>) -> Option<Station
     if column.is_none() && stated.len() > 1 {
         let help = "name the column of the station in [data]: `station = \"…\"`";
         let message = "several stations, but no column with the station of each row";
-        return root.document.refuse(list.key_span.clone(), message, help);
+        return list.refuse_key(message, help);
     }
     Some(Stations { column, stated })
 }
@@ -82,7 +82,7 @@ pub(super) fn placement(
                 "write `placement = \"per station\"` in [data], or one table [placement]",
             ),
         };
-        return root.document.refuse(item.key_span.clone(), message, help);
+        return item.refuse_key(message, help);
     }
     if !is_per_station {
         let section = item.table("[placement]", &[&keys::PLACEMENT])?;
@@ -91,8 +91,7 @@ pub(super) fn placement(
     }
     for item in item.array("an array of tables [[placement]]")? {
         let section = item.table("this [[placement]]", &[&keys::PLACEMENT, &keys::PLACEMENT_OF_STATION])?;
-        let station = section.required("station")?;
-        let station = station.string()?;
+        let station = section.required("station")?.string()?;
         let stated = stated_placement(&section, frame, layout)?;
         if all.stated.iter().any(|other| other.station == station) {
             let message = format!("duplicate placement at the station `{}`", station.escape_debug());
@@ -146,7 +145,7 @@ pub(super) fn found_places(root: &Section<'_>, layout: Option<Layout>) -> Option
     let Some(list) = root.get("place") else { return layout };
     let Layout::Instruments(mut all) = layout? else {
         let message = "`[[place]]` is for fixtures of instruments, and this map has no [[instrument]]";
-        return root.document.refuse(list.key_span.clone(), message, "remove it");
+        return list.refuse_key(message, "remove it");
     };
     for item in list.array("an array of tables [[place]]")? {
         let section = item.table("this [[place]]", &[&keys::PLACE])?;
@@ -193,8 +192,7 @@ pub(super) fn found_places(root: &Section<'_>, layout: Option<Layout>) -> Option
 
 /// Reads a position and a quaternion w x y z.
 fn place(section: &Section<'_>) -> Option<Pose> {
-    let position = section.required("position")?;
-    let position = position.quantities("three lengths", Dimension::LENGTH);
+    let position = section.required("position")?.quantities("three lengths", Dimension::LENGTH);
     let item = section.required("quaternion")?;
     let numbers: [f64; 4] = item.quantities("four numbers: w x y z", Dimension::NONE)?;
     match rotation::from_quaternion(&numbers) {

@@ -130,8 +130,7 @@ fn read(root: &Section<'_>, spec: &Spec) -> Option<Sets> {
         return None;
     }
     root.check_keys(&[&keys::FILE]);
-    let head = root.required("plan")?;
-    let head = head.table("[plan]", &[&keys::PLAN])?;
+    let head = root.required("plan")?.table("[plan]", &[&keys::PLAN])?;
     let repeat = head.get("repeat").map_or(Some(1), |item| count(&item, keys::MOST_REPEATS as usize));
     let inputs = match root.get("inputs") {
         Some(item) => Candidates::inputs(spec).axes(&item),

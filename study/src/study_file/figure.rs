@@ -127,8 +127,7 @@ pub(super) fn read_figures(root: &Section<'_>, spec: &Spec, region: Option<&Regi
     let items = item.array("an array of tables [[figure]]").unwrap_or_default();
     let mut figures: Vec<Figure> = Vec::new();
     for item in items {
-        let Some(mut section) = item.section() else { continue };
-        section.name = "a [[figure]]".to_owned();
+        let Some(section) = item.named("a [[figure]]") else { continue };
         let Some(figure) = read_one(&section, spec) else { continue };
         let same = |other: &Figure| {
             (other.content, &other.source, other.measurand)
@@ -152,8 +151,8 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Figure> {
             Content::Travel(over(&item, spec)?)
         }
         Kind::Surface => {
-            let item = section.required("over")?;
-            let entries: [Item<'_>; 2] = item.entries("two names: variables, parameters or inputs")?;
+            let entries: [Item<'_>; 2] =
+                section.required("over")?.entries("two names: variables, parameters or inputs")?;
             let [first, second] = entries.map(|entry| over(&entry, spec));
             Content::Surface([first?, second?])
         }

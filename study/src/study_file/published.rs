@@ -52,8 +52,7 @@ pub(super) fn read_published(root: &Section<'_>, spec: &Spec) -> Vec<Published> 
     let items = root.get("published").and_then(|item| item.array("an array of tables [[published]]"));
     let mut read: Vec<Published> = Vec::new();
     for item in items.into_iter().flatten() {
-        let Some(mut section) = item.section() else { continue };
-        section.name = "a [[published]]".to_owned();
+        let Some(section) = item.named("a [[published]]") else { continue };
         let Some(published) = read_one(&section, spec) else { continue };
         if read.iter().any(|other| other.subject == published.subject) {
             let message = "duplicate published figure";

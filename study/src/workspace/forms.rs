@@ -43,8 +43,7 @@ pub fn read_region(item: &Item<'_>, spec: &Spec) -> Option<Region> {
     }
     if region.count().is_none() {
         let message = format!("this workspace has more than {LARGEST} configurations");
-        return item.document.refuse(
-            form.key_span.clone(),
+        return form.refuse_key(
             message,
             "use fewer values per axis, or random samples: `joints = { samples = 100000 \
                     }`",

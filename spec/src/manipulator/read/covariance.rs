@@ -63,11 +63,7 @@ fn identified(item: &Item<'_>, sources: &[Source], scope: &Scope) -> Option<Iden
 fn of_joint(section: &Section<'_>, item: &Item<'_>, source: &Source, scope: &Scope) -> Option<Identified> {
     if let Some(error) = section.get("error") {
         let help = "`error` names an error of a frame; remove one of them";
-        return section.document.refuse(
-            error.key_span.clone(),
-            "`error` and `joint` cannot be combined",
-            help,
-        );
+        return error.refuse_key("`error` and `joint` cannot be combined", help);
     }
     let name = item.string()?;
     let joint = source.deviations.iter().find_map(|deviation| match deviation.number {

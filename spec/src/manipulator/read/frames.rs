@@ -39,7 +39,7 @@ fn read_form(section: &Section<'_>, own: OwnVariable, scope: &Scope) -> Option<V
     }
     if let (Some(axis), Some(form)) = (&axis, forms.first().filter(|form| form.key != "origin")) {
         let message = format!("`axis` belongs to `origin`, not to `{}`", form.key);
-        return section.document.refuse(axis.key_span.clone(), message, "leave `axis` out");
+        return axis.refuse_key(message, "leave `axis` out");
     }
     let Some(form) = forms.first() else {
         if axis.is_some() {
@@ -133,8 +133,7 @@ fn denavit_hartenberg(item: &Item<'_>, scope: &Scope, convention: DhConvention) 
         let what = format!("`{key}`");
         let expected =
             Entry { dimension: Some(motion_dimension(motion)), what: &what, names: Allowed::Geometry };
-        let entry = section.required(key)?;
-        let amount = entry.expression(scope, expected)?;
+        let amount = section.required(key)?.expression(scope, expected)?;
         Some(Factor::Elementary(Elementary { motion, axis, amount }))
     });
     factors.into_iter().collect()

@@ -38,8 +38,7 @@ pub(super) fn read_loops<'d>(
         return loops;
     }
     for (index, item) in items.iter().enumerate() {
-        let Some(mut section) = item.section() else { continue };
-        section.name = format!("loop {}", index + 1);
+        let Some(mut section) = item.named(format!("loop {}", index + 1)) else { continue };
         let first = |name: &str| {
             let known = loops.iter().find(|other| other.name == name);
             known.map(|other| other.section.span.clone())

@@ -147,7 +147,7 @@ impl Points<'_> {
         let Self { x, y, .. } = &self;
         if x.len() != y.len() {
             let message = format!("`x` has {} numbers, but `y` has {}", x.len(), y.len());
-            return table.document.refuse(table.key_span.clone(), message, "every point needs an x and a y");
+            return table.refuse_key(message, "every point needs an x and a y");
         }
         if x.len() < 2 {
             let message =

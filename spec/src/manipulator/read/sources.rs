@@ -31,10 +31,7 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>) -> Vec<Source> 
     }
     let mut spans: Vec<(String, crate::diagnostic::Span)> = Vec::new();
     for item in items {
-        let Some(mut section) = item.section() else {
-            continue;
-        };
-        section.name = "this [[source]]".to_owned();
+        let Some(mut section) = item.named("this [[source]]") else { continue };
         let first = |name: &str| {
             let known = spans.iter().find(|(known, _)| known == name);
             known.map(|(_, span)| span.clone())
@@ -224,7 +221,7 @@ fn read_degrees_of_freedom(section: &Section<'_>, class: Option<Class>, chain: C
              measurements: write distribution = \"normal\", or leave them out",
         ),
     };
-    section.document.refuse(item.key_span, message, help)
+    item.refuse_key(message, help)
 }
 
 /// Reads a positive number of degrees of freedom.
@@ -243,7 +240,7 @@ fn read_magnitude(item: &Item<'_>, class: Option<Class>, chain: Chain<'_>) -> Op
     if class.and_then(Class::distribution).is_some() {
         let help = "remove `magnitude`: the distribution gives the size of the error";
         let message = "only a repeatable error has a `magnitude`";
-        return item.document.refuse(item.key_span.clone(), message, help);
+        return item.refuse_key(message, help);
     }
     let table = item.table("`magnitude`", &[&keys::MAGNITUDE])?;
     let number = |item: &Item<'_>| {
@@ -266,11 +263,7 @@ fn read_magnitude(item: &Item<'_>, class: Option<Class>, chain: Chain<'_>) -> Op
     let degrees_of_freedom = match table.get("degrees_of_freedom") {
         Some(item) if standard_deviation.is_none() => {
             let help = "add `standard_deviation`, or remove `degrees_of_freedom`";
-            return item.document.refuse(
-                item.key_span,
-                "`degrees_of_freedom` without `standard_deviation`",
-                help,
-            );
+            return item.refuse_key("`degrees_of_freedom` without `standard_deviation`", help);
         }
         Some(item) => positive(&item, chain)?,
         None => f64::INFINITY,

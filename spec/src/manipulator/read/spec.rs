@@ -249,10 +249,7 @@ fn read_frames<'d>(root: &Section<'d>, declarations: &mut Declarations) -> Optio
     )?;
     let mut frames: Vec<RawFrame<'d>> = Vec::new();
     for (index, item) in items.iter().enumerate() {
-        let Some(mut section) = item.section() else {
-            continue;
-        };
-        section.name = format!("frame {}", index + 1);
+        let Some(mut section) = item.named(format!("frame {}", index + 1)) else { continue };
         let first = |name: &str| {
             let known = frames.iter().find(|other| other.name == name);
             known.map(|other| other.section.span.clone())

@@ -21,8 +21,7 @@ pub(super) fn read_sum_limits(root: &Section<'_>, declarations: &Declarations) -
     });
     let mut limits: Vec<SumLimit> = Vec::new();
     for (index, item) in items.unwrap_or_default().iter().enumerate() {
-        let Some(mut section) = item.section() else { continue };
-        section.name = format!("limit {}", index + 1);
+        let Some(section) = item.named(format!("limit {}", index + 1)) else { continue };
         section.check_keys(&[&keys::LIMIT]);
         limits.extend(read_sum_limit(&section, declarations));
     }

@@ -60,7 +60,7 @@ impl Declarations {
         let table = Table::new(item.key.clone(), description, dimensions, points, interpolation?, outside?);
         if !table.is_finite() {
             let message = format!("the numbers of `{}` are too large to interpolate", item.key);
-            return item.document.refuse(item.key_span.clone(), message, "check the units");
+            return item.refuse_key(message, "check the units");
         }
         Some(table)
     }

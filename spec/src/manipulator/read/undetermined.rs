@@ -67,8 +67,8 @@ fn undetermined(item: &Item<'_>, frames: &[Frame], sources: &[Source]) -> Option
         let names = sources.iter().map(|source| source.name.as_str());
         return read_name(&source, names, "source").map(Identified::Magnitude);
     }
-    let error = section.required("error")?;
-    let component = error.choice(&Component::ALL.map(|component| (component.name(), component)))?;
+    let component =
+        section.required("error")?.choice(&Component::ALL.map(|component| (component.name(), component)))?;
     let Some(frame) = section.get("frame") else { return Some(Identified::Base(component)) };
     let frame = read_name(&frame, frames.iter().map(|frame| frame.name.as_str()), "frame")?;
     Some(Identified::Error(frame, component))
