@@ -131,7 +131,8 @@ impl Document {
             };
             self.found.borrow_mut().push(Diagnostic::new(span, message).help(help));
         }
-        if let Some(mistake) = not_toml(text, &self.found.borrow()) {
+        let mistake = not_toml(text, &self.found.borrow());
+        if let Some(mistake) = mistake {
             self.found.replace(vec![mistake]);
         }
         errors.is_empty().then_some(table)
