@@ -159,7 +159,8 @@ impl Document {
         self.fail(Diagnostic::new(span, message).help(help))
     }
 
-    /// Parses and reads the document: returns the result, or all diagnostics in the order of the file.
+    /// Parses and reads the document: returns the result, or all diagnostics in the order of the
+    /// file.
     pub fn read_tables<T>(self, read: impl FnOnce(&Section<'_>) -> Option<T>) -> Result<T, Diagnostics> {
         let text = Arc::clone(&self.text);
         let tables = self.tables(&text);

@@ -13,8 +13,8 @@ const KINDS: [(&str, &str, Option<NamedOption>); 4] = [
 ];
 
 impl Section<'_> {
-    /// Returns `true` if the whole file may be of the kind with the table `own`. If it is of another
-    /// kind, that becomes its only diagnostic.
+    /// Returns `true` if the whole file may be of the kind with the table `own`. If it is of
+    /// another kind, that becomes its only diagnostic.
     pub fn is_kind(&self, own: &str) -> bool {
         let Some((_, expected, _)) = KINDS.iter().find(|(table, ..)| *table == own) else { return true };
         if self.get(own).is_some() {

@@ -6,7 +6,8 @@ use super::{Failure, Measurement, Observation, ReferenceLength};
 use abbe_core::{Error, Pose, Quantity, rotation_vector};
 
 impl EvaluatedModel<'_> {
-    /// Returns the value of each of the [observables](super::Model::observables); ignores the measurement.
+    /// Returns the value of each of the [observables](super::Model::observables); ignores the
+    /// measurement.
     pub fn values(&mut self, observation: &Observation) -> Result<Vec<f64>, Failure> {
         self.chain(observation)?;
         let geometry = self.geometry();
