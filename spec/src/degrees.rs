@@ -75,7 +75,7 @@ fn check_bare(
         let term = &terms[index];
         match (term.kind, term.value) {
             (_, Some(value)) if term.bare => {
-                document.found.borrow_mut().extend(check(value, term.span.clone(), ""))
+                document.found.borrow_mut().extend(check(value, term.span.clone(), ""));
             }
             // A TOML number has no quotes yet.
             (Kind::Number(value), _) if is_number(document.text.get(term.span.clone())) => {
