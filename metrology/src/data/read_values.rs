@@ -64,9 +64,9 @@ pub(super) fn unit(section: &Section<'_>, dimension: Dimension) -> Option<f64> {
         return Some(1.0);
     }
     let text = format!("1 {name}");
-    let mut line = Document::new("", text.as_str());
+    let line = Document::new("", text.as_str());
     let what = format!("the unit `{}`", name.escape_debug());
-    let factor = parse_value(&mut line, 0..text.trim_end().len(), section.document.length, dimension, &what);
+    let factor = parse_value(&line, 0..text.trim_end().len(), section.document.length, dimension, &what);
     if let (None, Some(found)) = (factor, line.found.into_inner().into_iter().next()) {
         let help = found.help.unwrap_or_else(|| "write `mm`, `deg`, `kg` …".to_owned());
         section.document.mistake(Diagnostic::new(item.span(), found.message).help(help));

@@ -86,8 +86,8 @@ fn find_link(option: &NamedOption, name: &str, names: &[&str], document: &Docume
     let found = names.iter().position(|link| *link == name);
     if found.is_none() {
         // The mistake is in the option, and has no span in the file.
-        let mut argument = Document::new(option.to_string(), name);
-        find_name(&mut argument, 0..name.len(), name, names, "link");
+        let argument = Document::new(option.to_string(), name);
+        find_name(&argument, 0..name.len(), name, names, "link");
         let help =
             argument.found.into_inner().into_iter().find_map(|mistake| mistake.help).unwrap_or_default();
         let message = format!("`{option}`: there is no link `{}`", name.escape_debug());
