@@ -6,7 +6,7 @@ use abbe_report::views;
 use abbe_study::{Changes, allocate, changed_text};
 use clap::Args;
 
-use crate::arguments::{Running, Showing, Subject, Writing, study};
+use crate::arguments::{Common, Subject, study};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, quoted};
@@ -35,22 +35,18 @@ pub(crate) struct Allocate {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    writing: Writing,
-    #[command(flatten)]
-    showing: Showing,
-    #[command(flatten)]
-    running: Running,
+    common: Common,
 }
 
 pub(crate) fn run(arguments: &Allocate) -> Result<Outcome, Failure> {
-    arguments.running.start()?;
+    arguments.common.running.start()?;
     let machine = arguments.subject.as_written()?;
     let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
     let changes = arguments.subject.changes(&machine.spec)?;
     let mut job = allocate::Allocate::new(machine.clone(), study);
     job.change(&changes);
     job.loosen = arguments.loosen;
-    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let mut outputs = Outputs::new(&job, arguments.common.writing.force);
     let mut file = outputs.wanted(arguments.out.as_deref())?;
     let report = job.run(&mut Console::default())?;
     let mut next =
@@ -66,6 +62,6 @@ pub(crate) fn run(arguments: &Allocate) -> Result<Outcome, Failure> {
         next = format!("abbe analyze {path}, with the study and the tolerance of this run, checks the file");
     }
     let printed = outputs.finish(file)?;
-    let text = arguments.showing.answer(&report, views::allocation(&report), &next)?;
+    let text = arguments.common.showing.answer(&report, views::allocation(&report), &next)?;
     Ok(Outcome::passed(text).beside(printed))
 }

@@ -11,7 +11,7 @@ use abbe_spec::Spec;
 use abbe_study::explore::Explore;
 use clap::{Args, ValueHint};
 
-use crate::arguments::{Page, Running, Showing, Subject, Writing, length};
+use crate::arguments::{Common, Page, Subject, length};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write};
@@ -45,15 +45,11 @@ pub(crate) struct Compensate {
     #[command(flatten)]
     page: Page,
     #[command(flatten)]
-    writing: Writing,
-    #[command(flatten)]
-    showing: Showing,
-    #[command(flatten)]
-    running: Running,
+    common: Common,
 }
 
 pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
-    arguments.running.start()?;
+    arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let mut map = map(arguments, &machine.spec)?;
     arguments.page.dated.date(&mut map.record);
@@ -63,7 +59,7 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
         false => Data::read_commanded(&arguments.data, &map)?,
     };
     let job = compensate::Compensate { machine, map, data, poses: arguments.poses, tolerance };
-    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let mut outputs = Outputs::new(&job, arguments.common.writing.force);
     let out = arguments.out.as_deref();
     let failed = |error: io::Error| cannot_write(out.unwrap_or(Path::new("-")), &error);
     let commands = outputs.wanted(out)?.map(|file| Csv::new(file, &job.heading()));
@@ -71,7 +67,7 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let mut rows = Vec::new();
     // JSON and figures need all rows at once; the file of commands is written row by row.
-    let keep = arguments.showing.json || page.is_some();
+    let keep = arguments.common.showing.json || page.is_some();
     let report = job.for_each_row(&mut Console::default(), |row| {
         if let Some(csv) = &mut commands {
             csv.row(job.label(&row), &row.numbers(&job.map)).map_err(failed)?;
@@ -98,8 +94,8 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
         None => "--out FILE writes the corrected commands, --full shows the first of them",
         Some(_) => "--full shows the first corrected commands",
     };
-    let is_json = arguments.showing.json;
-    let mut text = arguments.showing.answer(&report, document(), next)?;
+    let is_json = arguments.common.showing.json;
+    let mut text = arguments.common.showing.answer(&report, document(), next)?;
     if let (Some(file), false) = (out, is_json) {
         text += &format!("\n{}: {} rows\n", file.display(), report.row_summary.rows);
     }

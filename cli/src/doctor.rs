@@ -53,9 +53,9 @@ pub(crate) fn run(arguments: &Doctor) -> Result<Outcome, Failure> {
     let within = match &arguments.within {
         None => None,
         Some(text) => {
-            let mut document = Document::new("--within", text.as_str());
+            let document = Document::new("--within", text.as_str());
             let length = machine.spec.length;
-            let value = parse_value(&mut document, 0..text.len(), length, Dimension::LENGTH, "`--within`");
+            let value = parse_value(&document, 0..text.len(), length, Dimension::LENGTH, "`--within`");
             Some(document.finish(value)?)
         }
     };

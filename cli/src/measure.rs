@@ -9,7 +9,7 @@ use abbe_spec::Spec;
 use abbe_study::explore::Explore;
 use clap::{Args, ValueEnum};
 
-use crate::arguments::{Dated, Measured, Running, Showing, Subject, Writing};
+use crate::arguments::{Common, Dated, Measured, Subject};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::identify::accept;
@@ -40,11 +40,7 @@ pub(crate) struct Measure {
     #[command(flatten)]
     dated: Dated,
     #[command(flatten)]
-    writing: Writing,
-    #[command(flatten)]
-    showing: Showing,
-    #[command(flatten)]
-    running: Running,
+    common: Common,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -54,7 +50,7 @@ pub(crate) enum Station {
 }
 
 pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
-    arguments.running.start()?;
+    arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.measured.map, &machine.spec)?;
     let mut map = if arguments.station.is_some() { map.newly_stationed() } else { map };
@@ -62,7 +58,7 @@ pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
     let data = Data::read(&arguments.measured.data, &map)?;
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
     let job = measure::Measure { machine, map, data, accept };
-    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let mut outputs = Outputs::new(&job, arguments.common.writing.force);
     let files = match &arguments.out {
         None => None,
         Some(folder) => {
@@ -91,6 +87,6 @@ fn outcome(arguments: &Measure, spec: &Spec, map: &Map, report: &Report) -> Resu
         _ => "--full for all figures of ISO 9283",
     };
     let document = views::measurement(spec, map, report);
-    let text = arguments.showing.answer(report, document, next)?;
+    let text = arguments.common.showing.answer(report, document, next)?;
     Ok(Outcome::checked(text, accepted))
 }

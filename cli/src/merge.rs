@@ -8,7 +8,7 @@ use abbe_study::explore::Explore;
 use clap::{Args, ValueHint};
 
 use crate::analyze::{self, Files, VaryingColumns};
-use crate::arguments::{Dated, Running, Showing, Writing};
+use crate::arguments::{Common, Dated};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, note};
@@ -34,15 +34,11 @@ pub(crate) struct Merge {
     #[command(flatten)]
     dated: Dated,
     #[command(flatten)]
-    writing: Writing,
-    #[command(flatten)]
-    showing: Showing,
-    #[command(flatten)]
-    running: Running,
+    common: Common,
 }
 
 pub(crate) fn run(arguments: &Merge) -> Result<Outcome, Failure> {
-    arguments.running.start()?;
+    arguments.common.running.start()?;
     let mut console = Console::default();
     let read = |path: &PathBuf| Ok::<_, Failure>((path.display().to_string(), Part::read(path)?));
     let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -56,7 +52,7 @@ pub(crate) fn run(arguments: &Merge) -> Result<Outcome, Failure> {
                         without --no-figures",
                 ));
             }
-            let mut outputs = Outputs::new(&arguments.parts, arguments.writing.force);
+            let mut outputs = Outputs::new(&arguments.parts, arguments.common.writing.force);
             let drawn = job.monte_carlo.is_some();
             Some((folder, Files::for_parts(folder, &mut outputs, VaryingColumns::new(job), drawn)?, outputs))
         }
@@ -75,5 +71,5 @@ pub(crate) fn run(arguments: &Merge) -> Result<Outcome, Failure> {
         analyze::write(folder, files, outputs, &report, live.as_ref())?;
         note("note: configurations.csv is not written: parts do not contain single configurations");
     }
-    analyze::outcome(&report, arguments.check, &arguments.showing, "--full for every table")
+    analyze::outcome(&report, arguments.check, &arguments.common.showing, "--full for every table")
 }

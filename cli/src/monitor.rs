@@ -9,7 +9,7 @@ use abbe_report::{Provenance, views};
 use abbe_study::explore::Explore;
 use clap::{Args, ValueHint};
 
-use crate::arguments::{Page, Running, Showing, Subject, Writing, length, whole};
+use crate::arguments::{Common, Page, Subject, length, whole};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs};
@@ -46,15 +46,11 @@ pub(crate) struct Monitor {
     #[command(flatten)]
     page: Page,
     #[command(flatten)]
-    writing: Writing,
-    #[command(flatten)]
-    showing: Showing,
-    #[command(flatten)]
-    running: Running,
+    common: Common,
 }
 
 pub(crate) fn run(arguments: &Monitor) -> Result<Outcome, Failure> {
-    arguments.running.start()?;
+    arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let mut map = Map::find(&arguments.map, &machine.spec)?;
     arguments.page.dated.date(&mut map.record);
@@ -67,7 +63,7 @@ pub(crate) fn run(arguments: &Monitor) -> Result<Outcome, Failure> {
     let settings =
         Settings { checks_per_false_alarm: arguments.false_alarm as f64, tolerance, ..Settings::default() };
     let job = monitor::Monitor { machine, map, checks, settings };
-    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let mut outputs = Outputs::new(&job, arguments.common.writing.force);
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let report = job.run(&mut Console::default())?;
     let document = || views::monitoring(&job.machine.spec, &job.map, &report);
@@ -84,6 +80,6 @@ pub(crate) fn run(arguments: &Monitor) -> Result<Outcome, Failure> {
         None => "--report FILE for a page with the charts, --full for all charts",
         Some(_) => "--full for all charts",
     };
-    let text = arguments.showing.answer(&report, document(), next)?;
+    let text = arguments.common.showing.answer(&report, document(), next)?;
     Ok(Outcome::checked(text, passed).beside(printed))
 }

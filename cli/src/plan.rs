@@ -9,7 +9,7 @@ use abbe_metrology::plan::{self, Choice, Sets};
 use abbe_report::views;
 use clap::Args;
 
-use crate::arguments::{Running, Showing, Subject, Writing, length, named, study, whole};
+use crate::arguments::{Common, Subject, length, named, study, whole};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs};
@@ -54,15 +54,11 @@ pub(crate) struct Plan {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    writing: Writing,
-    #[command(flatten)]
-    showing: Showing,
-    #[command(flatten)]
-    running: Running,
+    common: Common,
 }
 
 pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
-    arguments.running.start()?;
+    arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.map, &machine.spec)?;
     let choice = match &arguments.sets {
@@ -76,7 +72,7 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
     let model_error = length("--model-error", &arguments.model_error, &machine.spec)?;
     let study = study(arguments.study.as_deref(), &[], &machine)?;
     let job = plan::Plan { machine, map, choice, study, model_error, seed: arguments.seed };
-    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let mut outputs = Outputs::new(&job, arguments.common.writing.force);
     let out = outputs.wanted(arguments.out.as_deref())?;
     let report = job.run(&mut Console::default())?;
     let out = out.map(|file| file.fill(&report.table(&job.map).csv())).transpose()?;
@@ -85,9 +81,9 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
         None => "--out FILE writes the configurations, --full lists indistinguishable errors",
         Some(_) => "--full lists indistinguishable errors",
     };
-    let is_json = arguments.showing.json;
+    let is_json = arguments.common.showing.json;
     let document = views::plan(&job.machine.spec, &job.map, &report);
-    let mut text = arguments.showing.answer(&report, document, next)?;
+    let mut text = arguments.common.showing.answer(&report, document, next)?;
     if let (Some(file), false) = (&arguments.out, is_json) {
         text += &format!("Written to {}.\n", file.display());
     }

@@ -19,9 +19,9 @@
 //! use abbe_spec::document::Document;
 //!
 //! let text = "joint,theta,d (mm),a (mm),alpha\nshoulder,0,0,400,0\nelbow,0,0,250,0\n";
-//! let mut document = Document::new("scara.csv", text);
+//! let document = Document::new("scara.csv", text);
 //! let (units, mut angles) = ("rad".parse()?, AngleRounding::new(false));
-//! let chain = dh::read(&mut document, DhConvention::Standard, units, &mut angles, &mut ());
+//! let chain = dh::read(&document, DhConvention::Standard, units, &mut angles, &mut ());
 //! let report = ImportReport::new(&document.finish(chain)?, "scara.csv", &mut ())?;
 //! assert_eq!(report.frames[1].variable.as_deref(), Some("elbow"));
 //! assert!(report.largest_difference < 1e-9);

@@ -47,7 +47,7 @@ pub struct AcceptanceVerdict {
 impl Acceptance {
     /// Parses `mean 0.15 mm, max 0.3 mm`. Mistakes are reported under the name `option`.
     pub fn read(option: &str, text: &str, length: LengthUnit) -> Result<Self, Diagnostics> {
-        let mut document = Document::new(option, text);
+        let document = Document::new(option, text);
         let mut limits = Vec::new();
         let mut at = 0;
         for part in text.split(',') {
@@ -65,7 +65,7 @@ impl Acceptance {
                 continue;
             };
             let value =
-                parse_value(&mut document, start + name.len()..end, length, Dimension::LENGTH, "this limit");
+                parse_value(&document, start + name.len()..end, length, Dimension::LENGTH, "this limit");
             limits.extend(value.map(|value| (figure, value)));
         }
         document.finish(Some(Self { limits }))

@@ -215,9 +215,9 @@ impl Machine {
     fn quantity(&self, py: Python<'_>, input: usize, text: &str) -> PyResult<f64> {
         let spec = &self.machine.spec;
         let declared = &spec.inputs[input];
-        let mut document = Document::new(&declared.name, text);
+        let document = Document::new(&declared.name, text);
         let what = format!("the value of `{}`", declared.name);
-        let value = parse_value(&mut document, 0..text.len(), spec.length, declared.dimension, &what);
+        let value = parse_value(&document, 0..text.len(), spec.length, declared.dimension, &what);
         document.finish(value).map_err(|mistakes| spec_error(py, &mistakes))
     }
 }

@@ -89,8 +89,8 @@ pub(crate) fn length(name: &str, value: &Bound<'_, PyAny>, spec: &Spec) -> PyRes
     let number: f64 = match value.cast::<PyString>() {
         Ok(text) => {
             let text = text.to_str()?;
-            let mut document = Document::new(name, text);
-            let number = parse_value(&mut document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
+            let document = Document::new(name, text);
+            let number = parse_value(&document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
             document.finish(number).map_err(|mistakes| spec_error(value.py(), &mistakes))?
         }
         Err(_) => value.extract()?,

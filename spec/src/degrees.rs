@@ -19,24 +19,24 @@ fn in_degrees(value: f64, what: &str, at: Span, quote: &str) -> Option<Diagnosti
 
 /// Records a number without a unit in the text of an angle that is probably in degrees, and returns
 /// `true` if there is one.
-pub fn check_angle_text(text: &str, what: &str, at: Span, document: &mut Document) -> bool {
+pub fn check_angle_text(text: &str, what: &str, at: Span, document: &Document) -> bool {
     let found = text.trim().parse().ok().and_then(|value| in_degrees(value, what, at, ""));
     let is_found = found.is_some();
-    document.found.extend(found);
+    document.found.borrow_mut().extend(found);
     is_found
 }
 
 /// Records an angle of a key that is probably in degrees, and returns `true` if it is.
-pub(crate) fn check_angle_item(item: &Item<'_>, what: &str, document: &mut Document) -> bool {
+pub(crate) fn check_angle_item(item: &Item<'_>, what: &str) -> bool {
     let found = item.number().and_then(|value| in_degrees(value, what, item.span(), "\""));
     let is_found = found.is_some();
-    document.found.extend(found);
+    item.document.found.borrow_mut().extend(found);
     is_found
 }
 
 /// Records the numbers without a unit in the outermost sum of an angle that are probably in
 /// degrees, as in `q3 - 90`.
-pub(crate) fn check_angle(angle: &Expression, document: &mut Document) {
+pub(crate) fn check_angle(angle: &Expression, document: &Document) {
     check_bare(angle, document, |value, at, quote| in_degrees(value, "an angle", at, quote));
 }
 
@@ -45,7 +45,7 @@ const LARGE_ERROR: f64 = 0.02;
 
 /// Records the numbers without a unit in the outermost sum of an error of an angle that are
 /// probably in mrad or degrees: `0.3` is hardly ever 0.3 rad.
-pub(crate) fn check_error_of_angle(error: &Expression, document: &mut Document) {
+pub(crate) fn check_error_of_angle(error: &Expression, document: &Document) {
     check_bare(error, document, |value, at, quote| {
         (value.abs() >= LARGE_ERROR).then(|| {
             let degrees = (10.0 * value.to_degrees()).round() / 10.0;
@@ -66,7 +66,7 @@ pub(crate) fn check_error_of_angle(error: &Expression, document: &mut Document) 
 /// given each number, its place and what encloses a value with a unit there.
 fn check_bare(
     expression: &Expression,
-    document: &mut Document,
+    document: &Document,
     check: impl Fn(f64, Span, &str) -> Option<Diagnostic>,
 ) {
     let terms = expression.terms();
@@ -74,10 +74,12 @@ fn check_bare(
     while let Some(index) = summands.pop() {
         let term = &terms[index];
         match (term.kind, term.value) {
-            (_, Some(value)) if term.bare => document.found.extend(check(value, term.span.clone(), "")),
+            (_, Some(value)) if term.bare => {
+                document.found.borrow_mut().extend(check(value, term.span.clone(), ""));
+            }
             // A TOML number has no quotes yet.
             (Kind::Number(value), _) if is_number(document.text.get(term.span.clone())) => {
-                document.found.extend(check(value, term.span.clone(), "\""));
+                document.found.borrow_mut().extend(check(value, term.span.clone(), "\""));
             }
             (Kind::Binary(Binary::Add | Binary::Sub, left, right), _) => summands.extend([left, right]),
             (Kind::Neg(operand), _) => summands.push(operand),

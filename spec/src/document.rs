@@ -1,6 +1,7 @@
 //! TOML documents with the location of every item, from which specs, studies, maps and plans are
 //! read.
 
+use std::cell::RefCell;
 use std::collections::HashSet;
 use std::fmt::Display;
 use std::io;
@@ -32,18 +33,18 @@ pub struct Document {
     /// Unit of lengths without a unit.
     pub length: LengthUnit,
     /// Diagnostics found so far.
-    pub found: Vec<Diagnostic>,
+    pub found: RefCell<Vec<Diagnostic>>,
     /// Folder of the file; `None` for text that is not in a file.
     pub folder: Option<PathBuf>,
     /// Contents of all files that the document may name; `None` opens the files.
     pub contents: Option<Arc<Contents>>,
     /// Additional files read for this one, and their contents.
-    pub(crate) beside: Vec<(PathBuf, Vec<u8>)>,
+    pub(crate) beside: RefCell<Vec<(PathBuf, Vec<u8>)>>,
     /// Every file that was read, this one first.
-    pub files: Vec<PathBuf>,
+    pub files: RefCell<Vec<PathBuf>>,
     /// Diagnostics about a missing key that is present under a misspelled name, by location and
     /// message.
-    pub(crate) meant: HashSet<(Span, String)>,
+    pub(crate) meant: RefCell<HashSet<(Span, String)>>,
 }
 
 impl Document {
@@ -53,12 +54,12 @@ impl Document {
             path: path.to_string(),
             text: text.into(),
             length: LengthUnit::Metre,
-            found: Vec::new(),
+            found: RefCell::default(),
             folder: None,
             contents: None,
-            beside: Vec::new(),
-            files: Vec::new(),
-            meant: HashSet::new(),
+            beside: RefCell::default(),
+            files: RefCell::default(),
+            meant: RefCell::default(),
         }
     }
 
@@ -80,7 +81,7 @@ impl Document {
         let bytes = match String::from_utf8(bytes) {
             Ok(text) => {
                 let folder = path.parent().map(Path::to_owned);
-                return Ok(Self { folder, files: vec![path.to_owned()], ..Self::new(name, text) });
+                return Ok(Self { folder, files: vec![path.to_owned()].into(), ..Self::new(name, text) });
             }
             Err(error) => error,
         };
@@ -98,7 +99,7 @@ impl Document {
     }
 
     /// Parses `text`, the document's own, or records all syntax errors.
-    pub fn tables<'t>(&mut self, text: &'t str) -> Option<Spanned<DeTable<'t>>> {
+    pub fn tables<'t>(&self, text: &'t str) -> Option<Spanned<DeTable<'t>>> {
         let (table, errors) = DeTable::parse_recoverable(text);
         let (mut last_line, mut repeated): (_, Option<usize>) = (None, None);
         for error in &errors {
@@ -128,221 +129,59 @@ impl Document {
                 }
                 _ => "expected TOML: `key = value`, `[table]`".to_owned(),
             };
-            self.found.push(Diagnostic::new(span, message).help(help));
+            self.found.borrow_mut().push(Diagnostic::new(span, message).help(help));
         }
-        if let Some(mistake) = not_toml(text, &self.found) {
-            self.found = vec![mistake];
+        let mistake = not_toml(text, &self.found.borrow());
+        if let Some(mistake) = mistake {
+            self.found.replace(vec![mistake]);
         }
         errors.is_empty().then_some(table)
     }
 
+    /// Returns the number of diagnostics found so far.
+    pub fn mistakes(&self) -> usize {
+        self.found.borrow().len()
+    }
+
     /// Records a diagnostic.
-    pub fn mistake(&mut self, diagnostic: Diagnostic) {
-        self.found.push(diagnostic);
+    pub fn mistake(&self, diagnostic: Diagnostic) {
+        self.found.borrow_mut().push(diagnostic);
     }
 
     /// Records a diagnostic, and returns none.
-    pub fn fail<T>(&mut self, diagnostic: Diagnostic) -> Option<T> {
-        self.found.push(diagnostic);
+    pub fn fail<T>(&self, diagnostic: Diagnostic) -> Option<T> {
+        self.found.borrow_mut().push(diagnostic);
         None
     }
 
     /// Records a mistake with its help, and returns none.
-    pub fn refuse<T>(
-        &mut self,
-        span: Span,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) -> Option<T> {
+    pub fn refuse<T>(&self, span: Span, message: impl Into<String>, help: impl Into<String>) -> Option<T> {
         self.fail(Diagnostic::new(span, message).help(help))
+    }
+
+    /// Parses and reads the document: returns the result, or all diagnostics in the order of the
+    /// file.
+    pub fn read_tables<T>(self, read: impl FnOnce(&Section<'_>) -> Option<T>) -> Result<T, Diagnostics> {
+        let text = Arc::clone(&self.text);
+        let tables = self.tables(&text);
+        let result = tables.and_then(|tables| read(&Section::root(&tables, &self)));
+        self.finish(result)
     }
 
     /// Finishes reading: returns the result, or all diagnostics in the order of the file.
     pub fn finish<T>(self, result: Option<T>) -> Result<T, Diagnostics> {
         match result {
-            Some(result) if self.found.is_empty() => Ok(result),
+            Some(result) if self.mistakes() == 0 => Ok(result),
             _ => {
-                let mut list = self.found;
+                let (mut list, meant) = (self.found.into_inner(), self.meant.into_inner());
                 list.retain(|Diagnostic { span, message, .. }| {
-                    !span.clone().is_some_and(|span| self.meant.contains(&(span, message.clone())))
+                    !span.clone().is_some_and(|span| meant.contains(&(span, message.clone())))
                 });
                 list.sort_by_key(|diagnostic| diagnostic.span.as_ref().map_or(0, |span| span.start));
                 list.dedup();
                 Err(Diagnostics { path: self.path, text: self.text, list })
             }
         }
-    }
-
-    /// Records that a value has another type than expected.
-    fn wrong_type<T>(&mut self, item: &Item<'_>, expected: &str) -> Option<T> {
-        let found = item.value.get_ref().type_str();
-        let message = format!("`{}` must be {expected}, not {}", item.key, with_article(found));
-        let help = format!("write `{} = …` with {expected}", item.key);
-        self.fail(Diagnostic::new(item.span(), message).label(format!("expected {expected}")).help(help))
-    }
-
-    /// Reads a string.
-    pub fn string(&mut self, item: &Item<'_>) -> Option<String> {
-        let text = item.text().map(str::to_owned);
-        text.or_else(|| self.wrong_type(item, "a string"))
-    }
-
-    /// Reads `true` or `false`.
-    pub fn boolean(&mut self, item: &Item<'_>) -> Option<bool> {
-        item.value.get_ref().as_bool().or_else(|| self.wrong_type(item, "true or false"))
-    }
-
-    /// Reads one of a few words.
-    pub fn choice<T: Copy>(&mut self, item: &Item<'_>, choices: &[(&str, T)]) -> Option<T> {
-        let word = self.string(item)?;
-        if let Some((_, value)) = choices.iter().find(|(name, _)| *name == word) {
-            return Some(*value);
-        }
-        let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
-        let message = format!("`{}` cannot be `{}`", item.key, word.escape_debug());
-        let quoted = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
-        let mistake = Diagnostic::new(item.span(), message).label(format!("expected {quoted}"));
-        self.fail(mistake.help(suggestion(self.found.len(), &word, &names, "choices")))
-    }
-
-    /// Reads a table.
-    pub fn section<'d>(&mut self, item: &Item<'d>) -> Option<Section<'d>> {
-        item.table().or_else(|| self.wrong_type(item, "a table"))
-    }
-
-    /// Reads a table with these keys; mistakes call it by `name`.
-    pub fn table<'d>(
-        &mut self,
-        item: &Item<'d>,
-        name: impl Into<String>,
-        keys: &[&Keys],
-    ) -> Option<Section<'d>> {
-        let section = Section { name: name.into(), ..self.section(item)? };
-        section.check_keys(keys, self);
-        Some(section)
-    }
-
-    /// Reads an array, whose entries become items of the same key.
-    pub fn array<'d>(&mut self, item: &Item<'d>, expected: &str) -> Option<Vec<Item<'d>>> {
-        item.is_list().then(|| item.list()).or_else(|| self.wrong_type(item, expected))
-    }
-
-    /// Reads an array of tables, `[[key]]`. A single table `[key]` is a mistake of its own.
-    pub fn array_of_tables<'d>(&mut self, item: &Item<'d>, key: &str) -> Option<Vec<Item<'d>>> {
-        if item.is_table() {
-            let message = format!("`{}` must be an array of tables, not a single table", item.key);
-            let mistake = Diagnostic::new(item.span(), message).label("a single table");
-            return self.fail(mistake.help(format!("write `[[{key}]]` instead of `[{key}]`")));
-        }
-        self.array(item, &format!("an array of tables [[{key}]]"))
-    }
-
-    /// Reads an array of exactly `N` entries.
-    pub fn entries<'d, const N: usize>(&mut self, item: &Item<'d>, expected: &str) -> Option<[Item<'d>; N]> {
-        let entries = self.array(item, expected)?;
-        let count = entries.len();
-        entries.try_into().ok().or_else(|| {
-            let message = format!("`{}` must be {expected}; this has {count}", item.key);
-            let help = format!("write {expected} in brackets");
-            let mistake = Diagnostic::new(item.span(), message);
-            self.fail(mistake.label(format!("expected {N} entries, found {count}")).help(help))
-        })
-    }
-
-    /// Records a diagnostic and returns `None` if there are more than `most` of something.
-    pub fn at_most(
-        &mut self,
-        item: &Item<'_>,
-        count: usize,
-        most: usize,
-        what: &str,
-        help: &str,
-    ) -> Option<()> {
-        if count > most {
-            let message = format!("too many {what}: found {count}, the maximum is {most}");
-            self.mistake(Diagnostic::new(item.key_span.clone(), message).help(help));
-        }
-        (count <= most).then_some(())
-    }
-
-    /// Reads a string with its location in the file.
-    pub(crate) fn text<'d>(&mut self, item: &Item<'d>) -> Option<(&'d str, TextLocation)> {
-        let Some(text) = item.text() else { return self.wrong_type(item, "a string") };
-        let span = item.span();
-        let raw = &self.text[span.clone()];
-        // Quotes precede the text; a text with escapes differs from the file.
-        let place = match raw.find(text) {
-            Some(offset) if !text.is_empty() && offset <= 4 => TextLocation::Exact(span.start + offset),
-            _ => TextLocation::Within(span),
-        };
-        Some((text, place))
-    }
-
-    /// Reads a number, or an expression in a string.
-    pub fn expression(&mut self, item: &Item<'_>, scope: &Scope, entry: Entry<'_>) -> Option<Expression> {
-        let span = item.span();
-        let (text, place) = match item.value.get_ref() {
-            DeValue::String(_) => {
-                let (text, place) = self.text(item)?;
-                if text.trim().is_empty() {
-                    let message = format!("{} is missing", entry.what);
-                    let mistake = Diagnostic::new(span, message).label("this is empty");
-                    return self.fail(mistake.help("write 0 if it is zero"));
-                }
-                return parse_expression(text, &place, scope, entry, &mut self.found);
-            }
-            DeValue::Integer(number) => (number.to_string(), span.clone()),
-            DeValue::Float(number) => (number.to_string(), span.clone()),
-            _ => return self.wrong_type(item, "a number or an expression in quotes"),
-        };
-        let value = match text.parse::<f64>() {
-            Ok(value) if value.abs() <= LARGEST_NUMBER => Some(value),
-            Ok(value) => {
-                let what = match value {
-                    _ if value.is_nan() => "NaN",
-                    _ if value.is_infinite() => "infinite or larger than 1.8e308",
-                    _ => "larger than 1e150",
-                };
-                let message = format!("{} cannot be {what}", entry.what);
-                let mistake = Diagnostic::new(span.clone(), message).label("expected a finite number");
-                self.fail(mistake.help("leave the entry out if there is no limit"))
-            }
-            Err(_) => self.refuse(span.clone(), "expected a decimal number", "write `255`, not `0xff`"),
-        };
-        let dimension = entry.dimension.unwrap_or(Dimension::NONE);
-        if !dimension.takes_bare(value?) {
-            let message = format!("{} must be {dimension}, not a number without a unit", entry.what);
-            let help =
-                format!("add a unit, in quotes: `\"{text} {}\"`", dimension.unit(scope.length.symbol()));
-            return self.fail(Diagnostic::new(span, message).label("this has no unit").help(help));
-        }
-        Some(Expression::number(value?, dimension, place))
-    }
-
-    /// Reads a constant: its value in coherent units and its dimension.
-    pub fn constant(&mut self, item: &Item<'_>, scope: &Scope, entry: Entry<'_>) -> Option<(f64, Dimension)> {
-        let expression = self.expression(item, scope, entry)?;
-        expression.constant().zip(expression.whole().dimension)
-    }
-
-    /// Reads a constant of this dimension in coherent units, whose bare lengths are in
-    /// [`length`](Self::length).
-    pub fn quantity(&mut self, item: &Item<'_>, dimension: Dimension) -> Option<f64> {
-        let (scope, what) = (Scope::new(self.length), format!("`{}`", item.key));
-        let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
-        self.constant(item, &scope, entry).map(|(value, _)| value)
-    }
-
-    /// Reads an array of `N` such constants.
-    pub fn quantities<const N: usize>(
-        &mut self,
-        item: &Item<'_>,
-        expected: &str,
-        dimension: Dimension,
-    ) -> Option<[f64; N]> {
-        let entries: [Item<'_>; N] = self.entries(item, expected)?;
-        let values = entries.map(|item| self.quantity(&item, dimension));
-        values.into_iter().collect::<Option<Vec<f64>>>()?.try_into().ok()
     }
 }
 
@@ -354,11 +193,16 @@ pub struct Item<'d> {
     /// Location of the key.
     pub key_span: Span,
     value: &'d Spanned<DeValue<'d>>,
+    /// Document that it is of.
+    pub document: &'d Document,
 }
 
 impl<'d> Item<'d> {
-    fn new((key, value): (&'d Spanned<DeString<'d>>, &'d Spanned<DeValue<'d>>)) -> Self {
-        Self { key: key.get_ref().to_string(), key_span: key.span(), value }
+    fn new(
+        (key, value): (&'d Spanned<DeString<'d>>, &'d Spanned<DeValue<'d>>),
+        document: &'d Document,
+    ) -> Self {
+        Self { key: key.get_ref().to_string(), key_span: key.span(), value, document }
     }
 
     /// Returns the location of the value.
@@ -368,7 +212,7 @@ impl<'d> Item<'d> {
 
     /// Returns the item of a key if the value is a table that contains it.
     pub(crate) fn key_of_table(&self, key: &str) -> Option<Self> {
-        self.table()?.get(key)
+        self.as_table()?.get(key)
     }
 
     /// Returns the number if the value is a number, or a string with nothing else.
@@ -389,7 +233,7 @@ impl<'d> Item<'d> {
     /// Returns the entries if the value is an array; none otherwise. They have its key.
     pub fn list(&self) -> Vec<Self> {
         let entries = self.value.get_ref().as_array().into_iter().flat_map(|array| array.iter());
-        entries.map(|value| Self { key: self.key.clone(), key_span: value.span(), value }).collect()
+        entries.map(|value| Self { key: self.key.clone(), key_span: value.span(), value, ..*self }).collect()
     }
 
     /// Returns the text if the value is a string.
@@ -398,9 +242,10 @@ impl<'d> Item<'d> {
     }
 
     /// Returns the table if the value is one.
-    pub fn table(&self) -> Option<Section<'d>> {
+    pub fn as_table(&self) -> Option<Section<'d>> {
         let table = self.value.get_ref().as_table()?;
-        Some(Section { table, span: self.key_span.clone(), name: self.key.clone(), is_root: false })
+        let (span, name) = (self.key_span.clone(), self.key.clone());
+        Some(Section { table, span, name, is_root: false, document: self.document })
     }
 
     /// Returns `true` if the value is a string.
@@ -411,6 +256,177 @@ impl<'d> Item<'d> {
     /// Returns `true` if the value is a table.
     pub fn is_table(&self) -> bool {
         self.value.get_ref().is_table()
+    }
+
+    /// Records a mistake of the value with its help, and returns none.
+    pub fn refuse<T>(&self, message: impl Into<String>, help: impl Into<String>) -> Option<T> {
+        self.document.refuse(self.span(), message, help)
+    }
+
+    /// Records a mistake of the key with its help, and returns none.
+    pub fn refuse_key<T>(&self, message: impl Into<String>, help: impl Into<String>) -> Option<T> {
+        self.document.refuse(self.key_span.clone(), message, help)
+    }
+
+    /// Records that a value has another type than expected.
+    fn wrong_type<T>(&self, expected: &str) -> Option<T> {
+        let found = self.value.get_ref().type_str();
+        let message = format!("`{}` must be {expected}, not {}", self.key, with_article(found));
+        let help = format!("write `{} = …` with {expected}", self.key);
+        self.document
+            .fail(Diagnostic::new(self.span(), message).label(format!("expected {expected}")).help(help))
+    }
+
+    /// Reads a string.
+    pub fn string(&self) -> Option<String> {
+        let text = self.text().map(str::to_owned);
+        text.or_else(|| self.wrong_type("a string"))
+    }
+
+    /// Reads `true` or `false`.
+    pub fn boolean(&self) -> Option<bool> {
+        self.value.get_ref().as_bool().or_else(|| self.wrong_type("true or false"))
+    }
+
+    /// Reads one of a few words.
+    pub fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
+        let word = self.string()?;
+        if let Some((_, value)) = choices.iter().find(|(name, _)| *name == word) {
+            return Some(*value);
+        }
+        let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
+        let message = format!("`{}` cannot be `{}`", self.key, word.escape_debug());
+        let quoted = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
+        let mistake = Diagnostic::new(self.span(), message).label(format!("expected {quoted}"));
+        self.document.fail(mistake.help(suggestion(self.document.mistakes(), &word, &names, "choices")))
+    }
+
+    /// Reads a table.
+    pub fn section(&self) -> Option<Section<'d>> {
+        self.as_table().or_else(|| self.wrong_type("a table"))
+    }
+
+    /// Reads a table; mistakes call it by `name`.
+    pub fn named(&self, name: impl Into<String>) -> Option<Section<'d>> {
+        Some(Section { name: name.into(), ..self.section()? })
+    }
+
+    /// Reads a table with these keys; mistakes call it by `name`.
+    pub fn table(&self, name: impl Into<String>, keys: &[&Keys]) -> Option<Section<'d>> {
+        let section = self.named(name)?;
+        section.check_keys(keys);
+        Some(section)
+    }
+
+    /// Reads an array, whose entries become items of the same key.
+    pub fn array(&self, expected: &str) -> Option<Vec<Item<'d>>> {
+        self.is_list().then(|| self.list()).or_else(|| self.wrong_type(expected))
+    }
+
+    /// Reads an array of tables, `[[key]]`. A single table `[key]` is a mistake of its own.
+    pub fn array_of_tables(&self, key: &str) -> Option<Vec<Item<'d>>> {
+        if self.is_table() {
+            let message = format!("`{}` must be an array of tables, not a single table", self.key);
+            let mistake = Diagnostic::new(self.span(), message).label("a single table");
+            return self.document.fail(mistake.help(format!("write `[[{key}]]` instead of `[{key}]`")));
+        }
+        self.array(&format!("an array of tables [[{key}]]"))
+    }
+
+    /// Reads an array of exactly `N` entries.
+    pub fn entries<const N: usize>(&self, expected: &str) -> Option<[Item<'d>; N]> {
+        let entries = self.array(expected)?;
+        let count = entries.len();
+        entries.try_into().ok().or_else(|| {
+            let message = format!("`{}` must be {expected}; this has {count}", self.key);
+            let help = format!("write {expected} in brackets");
+            let mistake = Diagnostic::new(self.span(), message);
+            self.document.fail(mistake.label(format!("expected {N} entries, found {count}")).help(help))
+        })
+    }
+
+    /// Records a diagnostic and returns `None` if there are more than `most` of something.
+    pub fn at_most(&self, count: usize, most: usize, what: &str, help: &str) -> Option<()> {
+        if count > most {
+            let message = format!("too many {what}: found {count}, the maximum is {most}");
+            self.document.mistake(Diagnostic::new(self.key_span.clone(), message).help(help));
+        }
+        (count <= most).then_some(())
+    }
+
+    /// Reads a string with its location in the file.
+    pub(crate) fn located_text(&self) -> Option<(&'d str, TextLocation)> {
+        let Some(text) = self.text() else { return self.wrong_type("a string") };
+        let span = self.span();
+        let raw = &self.document.text[span.clone()];
+        // Quotes precede the text; a text with escapes differs from the file.
+        let place = match raw.find(text) {
+            Some(offset) if !text.is_empty() && offset <= 4 => TextLocation::Exact(span.start + offset),
+            _ => TextLocation::Within(span),
+        };
+        Some((text, place))
+    }
+
+    /// Reads a number, or an expression in a string.
+    pub fn expression(&self, scope: &Scope, entry: Entry<'_>) -> Option<Expression> {
+        let span = self.span();
+        let (text, place) = match self.value.get_ref() {
+            DeValue::String(_) => {
+                let (text, place) = self.located_text()?;
+                if text.trim().is_empty() {
+                    let message = format!("{} is missing", entry.what);
+                    let mistake = Diagnostic::new(span, message).label("this is empty");
+                    return self.document.fail(mistake.help("write 0 if it is zero"));
+                }
+                return parse_expression(text, &place, scope, entry, &mut self.document.found.borrow_mut());
+            }
+            DeValue::Integer(number) => (number.to_string(), span.clone()),
+            DeValue::Float(number) => (number.to_string(), span.clone()),
+            _ => return self.wrong_type("a number or an expression in quotes"),
+        };
+        let value = match text.parse::<f64>() {
+            Ok(value) if value.abs() <= LARGEST_NUMBER => Some(value),
+            Ok(value) => {
+                let what = match value {
+                    _ if value.is_nan() => "NaN",
+                    _ if value.is_infinite() => "infinite or larger than 1.8e308",
+                    _ => "larger than 1e150",
+                };
+                let message = format!("{} cannot be {what}", entry.what);
+                let mistake = Diagnostic::new(span.clone(), message).label("expected a finite number");
+                self.document.fail(mistake.help("leave the entry out if there is no limit"))
+            }
+            Err(_) => self.refuse("expected a decimal number", "write `255`, not `0xff`"),
+        };
+        let dimension = entry.dimension.unwrap_or(Dimension::NONE);
+        if !dimension.takes_bare(value?) {
+            let message = format!("{} must be {dimension}, not a number without a unit", entry.what);
+            let help =
+                format!("add a unit, in quotes: `\"{text} {}\"`", dimension.unit(scope.length.symbol()));
+            return self.document.fail(Diagnostic::new(span, message).label("this has no unit").help(help));
+        }
+        Some(Expression::number(value?, dimension, place))
+    }
+
+    /// Reads a constant: its value in coherent units and its dimension.
+    pub fn constant(&self, scope: &Scope, entry: Entry<'_>) -> Option<(f64, Dimension)> {
+        let expression = self.expression(scope, entry)?;
+        expression.constant().zip(expression.whole().dimension)
+    }
+
+    /// Reads a constant of this dimension in coherent units, whose bare lengths are in
+    /// [`Document::length`].
+    pub fn quantity(&self, dimension: Dimension) -> Option<f64> {
+        let (scope, what) = (Scope::new(self.document.length), format!("`{}`", self.key));
+        let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
+        self.constant(&scope, entry).map(|(value, _)| value)
+    }
+
+    /// Reads an array of `N` such constants.
+    pub fn quantities<const N: usize>(&self, expected: &str, dimension: Dimension) -> Option<[f64; N]> {
+        let entries: [Item<'_>; N] = self.entries(expected)?;
+        let values = entries.map(|item| item.quantity(dimension));
+        values.into_iter().collect::<Option<Vec<f64>>>()?.try_into().ok()
     }
 }
 
@@ -426,40 +442,48 @@ pub struct Section<'d> {
     /// Name of the table.
     pub name: String,
     is_root: bool,
+    /// Document that it is of.
+    pub document: &'d Document,
 }
 
 impl<'d> Section<'d> {
     /// Creates the section of the whole file.
-    pub fn root(table: &'d Spanned<DeTable<'d>>) -> Self {
-        Self { table: table.get_ref(), span: 0..0, name: "this file".to_owned(), is_root: true }
+    pub fn root(table: &'d Spanned<DeTable<'d>>, document: &'d Document) -> Self {
+        Self { table: table.get_ref(), span: 0..0, name: "this file".to_owned(), is_root: true, document }
+    }
+
+    /// Records a mistake of the whole table with its help, and returns none.
+    pub fn refuse<T>(&self, message: impl Into<String>, help: impl Into<String>) -> Option<T> {
+        self.document.refuse(self.span.clone(), message, help)
     }
 
     /// Iterates over all items, in order.
     pub fn items(&self) -> impl Iterator<Item = Item<'d>> + use<'d> {
-        self.table.iter().map(Item::new)
+        let document = self.document;
+        self.table.iter().map(move |entry| Item::new(entry, document))
     }
 
     /// Returns the item of a key.
     pub fn get(&self, key: &str) -> Option<Item<'d>> {
-        self.table.get_key_value(key).map(Item::new)
+        self.table.get_key_value(key).map(|entry| Item::new(entry, self.document))
     }
 
     /// Returns the item of a key, or records that it is missing.
-    pub fn required(&self, key: &str, document: &mut Document) -> Option<Item<'d>> {
+    pub fn required(&self, key: &str) -> Option<Item<'d>> {
         let form = if self.is_root { format!("a table `[{key}]`") } else { format!("`{key} = …`") };
-        self.required_as(key, &form, document)
+        self.required_as(key, &form)
     }
 
     /// Returns the item of a key for an array of tables, or records that it is missing.
-    pub fn required_list(&self, key: &str, document: &mut Document) -> Option<Item<'d>> {
-        self.required_as(key, &format!("a table `[[{key}]]` for each"), document)
+    pub fn required_list(&self, key: &str) -> Option<Item<'d>> {
+        self.required_as(key, &format!("a table `[[{key}]]` for each"))
     }
 
     /// Returns the item of a key, or records that it is missing; `form` is what to add.
-    pub(crate) fn required_as(&self, key: &str, form: &str, document: &mut Document) -> Option<Item<'d>> {
+    pub(crate) fn required_as(&self, key: &str, form: &str) -> Option<Item<'d>> {
         self.get(key).or_else(|| {
             let mistake = Diagnostic::new(self.span.clone(), self.missing(key));
-            document.fail(mistake.label(format!("`{key}` belongs here")).help(format!("add {form}")))
+            self.document.fail(mistake.label(format!("`{key}` belongs here")).help(format!("add {form}")))
         })
     }
 
@@ -469,34 +493,35 @@ impl<'d> Section<'d> {
 
     /// Returns the text of a key on one line; empty if there is none. A value that is no string is
     /// a mistake, which for `description` and `reference` [`check_keys`](Self::check_keys) records.
-    pub fn optional_text(&self, key: &str, document: &mut Document) -> String {
+    pub fn optional_text(&self, key: &str) -> String {
         let item = self.get(key).filter(|item| item.is_text() || !TEXTS.contains(&key));
-        let text = item.and_then(|item| document.string(&item)).unwrap_or_default();
+        let text = item.and_then(|item| item.string()).unwrap_or_default();
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
     /// Records every unknown key with the most similar known one, and every `description` or
     /// `reference` that is no string.
-    pub fn check_keys(&self, known: &[&Keys], document: &mut Document) {
+    pub fn check_keys(&self, known: &[&Keys]) {
         let names: Vec<&str> = known.iter().flat_map(|keys| keys.names()).collect();
-        self.check_names(&names, document);
+        self.check_names(&names);
     }
 
     /// Records the mistakes of [`check_keys`](Self::check_keys), for keys with these names.
-    pub fn check_names(&self, names: &[&str], document: &mut Document) {
+    pub fn check_names(&self, names: &[&str]) {
         let (known, unknown): (Vec<_>, Vec<_>) =
             self.items().partition(|item| names.contains(&item.key.as_str()));
         for item in known.iter().filter(|item| TEXTS.contains(&item.key.as_str())) {
-            document.string(item);
+            item.string();
         }
         for item in unknown {
             let message = format!("there is no key `{}` in {}", item.key.escape_debug(), self.name);
-            let help = suggestion(document.found.len(), &item.key, names, "known keys");
-            document.mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(help));
+            let help = suggestion(self.document.mistakes(), &item.key, names, "known keys");
+            self.document
+                .mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(help));
             // A misspelled key is not reported as missing as well.
-            let near = nearest_after(document.found.len() - 1, &item.key, names.iter().copied());
+            let near = nearest_after(self.document.mistakes() - 1, &item.key, names.iter().copied());
             if let Some(meant) = near.filter(|meant| self.get(meant).is_none()) {
-                document.meant.insert((self.span.clone(), self.missing(meant)));
+                self.document.meant.borrow_mut().insert((self.span.clone(), self.missing(meant)));
             }
         }
     }

@@ -20,14 +20,14 @@ use crate::expr::{
 /// # use abbe_core::LengthUnit;
 /// # use abbe_spec::expr::Dimension;
 /// # use abbe_spec::value::parse_value;
-/// let mut document = Document::new("--q", "1.2m,1200");
+/// let document = Document::new("--q", "1.2m,1200");
 /// for span in [0..4, 5..9] {
-///     let value = parse_value(&mut document, span, LengthUnit::Millimetre, Dimension::LENGTH, "the value of d1");
+///     let value = parse_value(&document, span, LengthUnit::Millimetre, Dimension::LENGTH, "the value of d1");
 ///     assert_eq!(value, Some(1200.0));
 /// }
 /// ```
 pub fn parse_value(
-    document: &mut Document,
+    document: &Document,
     span: Span,
     length: LengthUnit,
     dimension: Dimension,
@@ -39,23 +39,24 @@ pub fn parse_value(
         return document.refuse(span, format!("{what} is missing"), "write 0 if it is zero");
     }
     let place = TextLocation::Exact(span.start);
-    let mistakes = document.found.len();
+    let mistakes = document.mistakes();
     match tokens(text, &place) {
         Ok(tokens) => {
             let words = tokens.into_iter().filter_map(|(token, range)| match token {
                 Token::Word(word) => Some((word, place.span(range))),
                 _ => None,
             });
-            document.found.extend(words.filter_map(|(word, span)| unknown_word(word, span)));
+            document.found.borrow_mut().extend(words.filter_map(|(word, span)| unknown_word(word, span)));
         }
         Err(mistake) => document.mistake(mistake),
     }
-    if document.found.len() > mistakes {
+    if document.mistakes() > mistakes {
         return None;
     }
     let scope = Scope::new(length);
     let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
-    let value = parse_expression(text, &place, &scope, entry, &mut document.found)?.constant()?;
+    let value =
+        parse_expression(text, &place, &scope, entry, &mut document.found.borrow_mut())?.constant()?;
     if !value.is_finite() {
         let help = format!("it is converted to {}", dimension.unit(length.symbol()));
         document.mistake(Diagnostic::new(span, format!("{what} is too large")).help(help));
@@ -79,27 +80,16 @@ fn unknown_word(word: &str, span: Span) -> Option<Diagnostic> {
 
 /// Reads a name, and returns its index among the known ones; `what` names one of them in the
 /// singular.
-pub fn read_name<'n>(
-    document: &mut Document,
-    item: &Item<'_>,
-    known: impl IntoIterator<Item = &'n str>,
-    what: &str,
-) -> Option<usize> {
-    let (name, known) = (document.string(item)?, Vec::from_iter(known));
-    find_name(document, item.span(), &name, &known, what)
+pub fn read_name<'n>(item: &Item<'_>, known: impl IntoIterator<Item = &'n str>, what: &str) -> Option<usize> {
+    let (name, known) = (item.string()?, Vec::from_iter(known));
+    find_name(item.document, item.span(), &name, &known, what)
 }
 
 /// Returns the index of a name among the known ones, or records a mistake at `span` with
 /// suggestions.
 ///
 /// `what` names one of them in the singular: `source`.
-pub fn find_name(
-    document: &mut Document,
-    span: Span,
-    name: &str,
-    known: &[&str],
-    what: &str,
-) -> Option<usize> {
+pub fn find_name(document: &Document, span: Span, name: &str, known: &[&str], what: &str) -> Option<usize> {
     let found = known.iter().position(|candidate| *candidate == name);
     if found.is_none() {
         let near = nearest(name, known.iter().copied());

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use abbe::analysis::sampling;
-use abbe::identify::{Failure, Measurement, Model, Observation, Role, Scratch, Uncertainty, Unknown};
+use abbe::identify::{Failure, Measurement, Model, Observation, Role, Uncertainty, Unknown};
 use abbe::{Error, Manipulator, Pose};
 use abbe_spec::{Identified, Source, Spec, Uncertain};
 
@@ -52,7 +52,6 @@ impl CalibrationErrors {
 /// Predicts the errors of a point of the tool from those of a calibration.
 pub struct Prediction<'a> {
     model: Model<'a>,
-    scratch: Scratch,
     errors: &'a CalibrationErrors,
 }
 
@@ -87,22 +86,22 @@ impl<'a> Prediction<'a> {
         let [x, y, z, _] = Pose::IDENTITY.0;
         let model = Model { mountings: vec![Pose([x, y, z, point])], ..ideal }.with(unknowns);
         debug_assert!(model.roles.iter().all(|role| *role != Role::Known), "nothing but what is unknown");
-        Some(Self { scratch: model.scratch(), model, errors })
+        Some(Self { model, errors })
     }
 
     /// Returns the standard deviation of the point (√trace of its covariance) at each configuration
     /// that can be evaluated.
-    pub fn deviations(&mut self, configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>) -> Vec<f64> {
+    pub fn deviations(&self, configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>) -> Vec<f64> {
         let predicted = configurations.filter_map(|(q, u)| self.errors_at(q, u).ok());
         predicted.map(|errors| errors.standard_deviation()).collect()
     }
 
     /// Returns `M l` for each part l, where M is the Jacobian of the point with respect to the
     /// identified quantities.
-    pub fn errors_at(&mut self, q: Vec<f64>, u: Vec<f64>) -> Result<PredictedErrors, Failure> {
+    pub fn errors_at(&self, q: Vec<f64>, u: Vec<f64>) -> Result<PredictedErrors, Failure> {
         let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
         let zero = vec![0.0; self.model.unknowns.len()];
-        let (pose, of_unknowns) = self.model.tool(&mut self.scratch, &row, &zero)?;
+        let (pose, of_unknowns) = self.model.at(&zero).tool(&row)?;
         let mut of_unknowns = of_unknowns.into_iter();
         let errors = self.errors;
         let moves = errors.of.iter().map(|one| match one {
@@ -120,13 +119,13 @@ impl<'a> Prediction<'a> {
 
 impl Prediction<'_> {
     /// Returns the derivative of the point with respect to a joint, by central differences.
-    fn moves_of_joint(&mut self, row: &Observation, joint: usize) -> Result<[f64; 3], Failure> {
+    fn moves_of_joint(&self, row: &Observation, joint: usize) -> Result<[f64; 3], Failure> {
         let zero = vec![0.0; self.model.unknowns.len()];
-        let mut at = |step: f64| {
+        let at = |step: f64| {
             let mut q = row.q.to_vec();
             q[joint] += step;
             let row = Observation::new(0, q, row.u.to_vec(), Measurement::Points(Vec::new().into()));
-            Ok::<_, Failure>(self.model.pose(&mut self.scratch, &row, &zero)?.position())
+            Ok::<_, Failure>(self.model.at(&zero).pose(&row)?.position())
         };
         let (before, after) = (at(-STEP)?, at(STEP)?);
         Ok(std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * STEP)))

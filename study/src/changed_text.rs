@@ -19,8 +19,8 @@ pub fn changed_text(text: &str, unchanged: &Spec, changed: &Spec) -> Option<Stri
     Edits::apply(text, |root, edits| {
         let both = values(unchanged).into_iter().zip(values(changed));
         for (_, (table, name, value, unit)) in both.filter(|(old, new)| old.2 != new.2) {
-            let item = root.get(table)?.table()?.get(&name)?;
-            let span = item.table().map_or(Some(item.span()), |table| Some(table.get("value")?.span()))?;
+            let item = root.get(table)?.as_table()?.get(&name)?;
+            let span = item.as_table().map_or(Some(item.span()), |table| Some(table.get("value")?.span()))?;
             let text = exact_quantity(value, &unit);
             edits.replace(span, if unit.is_empty() { text } else { write::quoted(&text) });
         }

@@ -56,16 +56,16 @@ impl Changes {
     pub fn parse_number(change: &str, spec: &Spec) -> Result<Self, Diagnostics> {
         let stated = vec![("set", change.to_owned())];
         let mut changes = Self { stated, ..Self::default() };
-        let mut document = Document::new(SET, change);
+        let document = Document::new(SET, change);
         let Some((name, value)) = change.split_once('=') else {
             document.mistake(Diagnostic::new(0..change.len(), "expected NAME=VALUE"));
             return document.finish(None);
         };
         let span = name.len() + 1..change.len();
-        let symbol = find_symbol(&mut document, 0..name.len(), name, spec);
+        let symbol = find_symbol(&document, 0..name.len(), name, spec);
         match (symbol, value.parse::<f64>()) {
             (Some((symbol, _)), Ok(value)) if value.is_finite() => {
-                changes.set(&mut document, span, spec, symbol, value);
+                changes.set(&document, span, spec, symbol, value);
             }
             (Some(_), _) => document.mistake(Diagnostic::new(span, "expected a finite number")),
             (None, _) => {}
@@ -104,7 +104,7 @@ impl Changes {
     }
 
     /// Sets a parameter or input; reports a mistake if an input is outside its range.
-    pub fn set(&mut self, document: &mut Document, span: Span, spec: &Spec, symbol: Symbol, value: f64) {
+    pub fn set(&mut self, document: &Document, span: Span, spec: &Spec, symbol: Symbol, value: f64) {
         if let Symbol::Input(input) = symbol {
             let input = &spec.inputs[input];
             let [lower, upper] = input.range;
@@ -121,13 +121,13 @@ impl Changes {
     }
 
     /// Switches a source on or off; reports a mistake if there is no source with this name.
-    pub fn switch(&mut self, document: &mut Document, span: Span, name: &str, spec: &Spec, on: bool) {
+    pub fn switch(&mut self, document: &Document, span: Span, name: &str, spec: &Spec, on: bool) {
         let found = find_source(document, span, name, spec);
         self.switches.extend(found.map(|source| (source, on)));
     }
 
     /// Scales the errors of a source, given as `SOURCE=FACTOR`.
-    fn scale(&mut self, document: &mut Document, span: Span, spec: &Spec) {
+    fn scale(&mut self, document: &Document, span: Span, spec: &Spec) {
         let line = document.text[span.clone()].to_owned();
         // A name can contain `=`, a factor cannot.
         let Some((name, _)) = line.rsplit_once('=') else {
@@ -191,18 +191,13 @@ impl Changes {
 }
 
 /// Finds a source by name; reports a mistake if there is none.
-fn find_source(document: &mut Document, span: Span, name: &str, spec: &Spec) -> Option<usize> {
+fn find_source(document: &Document, span: Span, name: &str, spec: &Spec) -> Option<usize> {
     let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
     find_name(document, span, name, &names, "source").map(|source| spec.whole(source))
 }
 
 /// Finds a parameter or input by name; reports a mistake if there is none.
-pub fn find_symbol(
-    document: &mut Document,
-    span: Span,
-    name: &str,
-    spec: &Spec,
-) -> Option<(Symbol, Dimension)> {
+pub fn find_symbol(document: &Document, span: Span, name: &str, spec: &Spec) -> Option<(Symbol, Dimension)> {
     if spec.variables.iter().any(|variable| variable.name == name) {
         let message = format!("`{name}` is a joint variable, not a parameter or input");
         let help = format!("`abbe jacobian` sets joint variables by `{Q}`; a workspace moves them");
@@ -224,12 +219,12 @@ pub fn find_symbol(
 fn each_line(
     option: &NamedOption,
     values: &[String],
-    mut read: impl FnMut(&mut Document, Span),
+    mut read: impl FnMut(&Document, Span),
 ) -> Result<(), Diagnostics> {
-    let mut document = Document::new(option, values.join("\n"));
+    let document = Document::new(option, values.join("\n"));
     let mut start = 0;
     for value in values {
-        read(&mut document, start..start + value.len());
+        read(&document, start..start + value.len());
         start += value.len() + 1;
     }
     document.finish(Some(()))

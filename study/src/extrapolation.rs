@@ -97,7 +97,7 @@ impl ToolPointDeviation {
         outside: &[(&[f64], &[f64])],
     ) -> Option<Self> {
         let errors = CalibrationErrors::new(spec, is_measured);
-        let mut prediction = Prediction::new(spec, manipulator, &errors, [0.0; 3])?;
+        let prediction = Prediction::new(spec, manipulator, &errors, [0.0; 3])?;
         let step = outside.len().div_ceil(SAMPLES).max(1);
         let beyond = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
         let beyond = prediction.deviations(beyond);

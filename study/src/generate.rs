@@ -79,14 +79,14 @@ impl Generate {
             let help = format!("choose another language, or leave `{ONLY}` out");
             return Err(mistake::with_help(ONLY, message, help));
         }
-        let mut document = Document::new(ONLY, only);
+        let document = Document::new(ONLY, only);
         let mut found = Vec::new();
         let mut start = 0;
         for name in only.split(',') {
             let at = start + name.len() - name.trim_start().len();
             start += name.len() + 1;
             let name = name.trim();
-            let index = find_name(&mut document, at..at + name.len(), name, &possible, "function");
+            let index = find_name(&document, at..at + name.len(), name, &possible, "function");
             found.extend(index.map(|index| possible[index]));
         }
         document.finish(Some(found))

@@ -194,7 +194,7 @@ fn note_beyond_limits(variable: &Variable, value: f64, spec: &Spec, notes: &mut 
 
 /// Parses the values of `--q`, one per variable: `500,0.2m,0,-90deg,pi/180,0`.
 pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnostics> {
-    let mut document = Document::new(Q, text);
+    let document = Document::new(Q, text);
     let spans = value_spans(text);
     if spans.len() != spec.variables.len() {
         let names = spec.variables.iter().map(|variable| variable.name.as_str()).collect::<Vec<_>>();
@@ -212,11 +212,11 @@ pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnos
         };
         let what = format!("the value of `{}`", variable.name);
         if variable.kind == VariableKind::Revolute
-            && check_angle_text(&text[span.clone()], &what, span.clone(), &mut document)
+            && check_angle_text(&text[span.clone()], &what, span.clone(), &document)
         {
             continue;
         }
-        q.extend(parse_value(&mut document, span, spec.length, dimension, &what));
+        q.extend(parse_value(&document, span, spec.length, dimension, &what));
     }
     document.finish(Some(q))
 }

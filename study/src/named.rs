@@ -39,8 +39,8 @@ pub fn document(
 
 /// Returns the diagnostic for an argument that names neither, with the nearest names.
 pub fn unknown(option: &str, argument: &str, names: &[&str], what: &str) -> Diagnostics {
-    let mut document = Document::new(option, argument);
-    find_name(&mut document, 0..argument.len(), argument, names, what);
+    let document = Document::new(option, argument);
+    find_name(&document, 0..argument.len(), argument, names, what);
     let Document { path, text, found, .. } = document;
     // Suggest `arm.toml` for `arm`.
     let near = [argument.to_owned() + ".toml", argument.to_owned()].into_iter();
@@ -50,5 +50,5 @@ pub fn unknown(option: &str, argument: &str, names: &[&str], what: &str) -> Diag
         Some(file) => mistake.label(format!("there is no such file; did you mean `{}`?", file.display())),
         None => mistake.label("there is no such file"),
     };
-    Diagnostics { path, text, list: found.into_iter().map(label).collect() }
+    Diagnostics { path, text, list: found.into_inner().into_iter().map(label).collect() }
 }

@@ -55,7 +55,7 @@ pub fn warn_of_other_tool<'r>(
         let errors = CalibrationErrors::new(spec, is_measured);
         let (mut sum, mut count) = (0.0, 0);
         for point in &other {
-            let mut prediction = Prediction::new(spec, manipulator, &errors, *point)?;
+            let prediction = Prediction::new(spec, manipulator, &errors, *point)?;
             let predicted = configurations.iter();
             let predicted = predicted.filter_map(|(q, u)| prediction.errors_at(q.to_vec(), u.to_vec()).ok());
             let predicted: Vec<PredictedErrors> = predicted.collect();

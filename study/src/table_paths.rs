@@ -15,8 +15,8 @@ pub(crate) fn with_table_paths(text: &str, from: &Path, to: &Path) -> String {
         return text.to_owned();
     };
     let edited = Edits::apply(text, |root, edits| {
-        for table in root.get("tables").filter(|_| from != to)?.table()?.items() {
-            let item = table.table().and_then(|table| table.get("file"));
+        for table in root.get("tables").filter(|_| from != to)?.as_table()?.items() {
+            let item = table.as_table().and_then(|table| table.get("file"));
             let file = item.as_ref().and_then(|item| item.text()).map(Path::new);
             if let (Some(item), Some(file)) = (&item, file.filter(|file| file.is_relative())) {
                 edits.replace(item.span(), quoted(&relative(&from.join(file), &to).to_string_lossy()));

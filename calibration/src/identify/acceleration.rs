@@ -26,13 +26,13 @@ impl Solver<'_> {
     pub(super) fn accelerated(&self, step: &DVector<f64>, damping: f64) -> Result<DVector<f64>, Failure> {
         let there = &self.x + step * AHEAD;
         let block = |first: usize, rows: &[Observation]| {
-            let mut scratch = self.model.scratch();
+            let (mut here, mut there) = (self.at(), self.model.at(there.as_slice()));
             let (mut sum, mut ahead) = (DVector::zeros(step.len()), Vec::new());
             for i in (first..first + rows.len()).filter(|i| self.weights[*i] > 0.0) {
                 ahead.clear();
-                self.model.residuals(&mut scratch, &self.data[i], there.as_slice(), |r| ahead.push(r))?;
+                there.residuals(&self.data[i], |r| ahead.push(r))?;
                 let mut ahead = ahead.iter();
-                self.linear(&mut scratch, i, |residual, row| {
+                here.linear(&self.data[i], |residual, row| {
                     let along: f64 = row.iter().zip(step.iter()).map(|(a, b)| a * b).sum();
                     let moved = ahead.next().map_or(along, |ahead| (ahead - residual) / AHEAD);
                     let bend = self.weights[i] * 2.0 * (moved - along) / AHEAD;

@@ -15,7 +15,6 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linearize::push;
 use super::triangle::Triangle;
 use super::{Failure, Fit, Model, Observation};
 
@@ -64,9 +63,9 @@ pub fn between_stations(
         if own().next().is_none() {
             continue;
         }
-        let (mut triangle, mut scratch, mut numbers) = (Triangle::new(p), kept.scratch(), 0);
+        let (mut triangle, mut at, mut numbers) = (Triangle::new(p), kept.at(&x), 0);
         for (row, weight) in own() {
-            push(&kept, &mut scratch, row, &x, *weight, &mut triangle)?;
+            at.push(row, *weight, &mut triangle)?;
             numbers += row.count();
         }
         let triangle = triangle.finish();

@@ -100,7 +100,7 @@ impl Solver<'_> {
     ) -> Result<(DMatrix<f64>, f64, f64), Failure> {
         let p = self.x.len();
         let block = |_: usize, groups: &[&[usize]]| {
-            let mut scratch = self.model.scratch();
+            let mut at = self.at();
             let mut sums = Triangle::new(p);
             let (mut between, mut within) = (0.0, 0.0);
             for rows in groups {
@@ -110,7 +110,7 @@ impl Solver<'_> {
                 for i in rows.iter().copied() {
                     let mut places = self.data[i].places().into_iter();
                     let weight = self.weights[i].sqrt();
-                    self.linear(&mut scratch, i, |residual, row| {
+                    at.linear(&self.data[i], |residual, row| {
                         let place = places.next().unwrap_or_default();
                         let (s, sum, count) =
                             numbers.entry(place).or_insert_with(|| (DVector::zeros(p), 0.0, 0.0));
@@ -171,12 +171,12 @@ impl Solver<'_> {
             return Ok((DMatrix::from_element(p, p, f64::INFINITY), f64::INFINITY));
         };
         let block = |_: usize, groups: &[&[usize]]| {
-            let mut scratch = self.model.scratch();
+            let mut at = self.at();
             let (mut rows, mut residuals, mut ends) = (Vec::new(), Vec::new(), Vec::new());
             for group in groups {
                 for i in group.iter().copied() {
                     let weight = self.weights[i].sqrt();
-                    self.linear(&mut scratch, i, |residual, row| {
+                    at.linear(&self.data[i], |residual, row| {
                         rows.extend(row.iter().map(|value| weight * value));
                         residuals.push(weight * residual);
                     })?;

@@ -3,58 +3,52 @@
 use core::borrow::Borrow;
 
 use super::blocks::by_blocks;
-use super::scratch::Scratch;
+use super::evaluated_model::EvaluatedModel;
 use super::vectors::difference;
 use super::{Camera, Distances, Failure, Figures, Measurement, Model, Observation};
 use abbe_analysis::sampling;
 use abbe_core::Pose;
 
-impl Model<'_> {
+impl EvaluatedModel<'_> {
     /// Returns position errors, model minus measurement: one vector for each measured point, in the
     /// axes of the instrument and the length unit.
     ///
     /// A reading of a length has an error along its gradient; angles have none. A corner that a
     /// camera sees has its vector from the line of sight of its pixel.
-    pub fn deviations(
-        &self,
-        scratch: &mut Scratch,
-        observation: &Observation,
-        x: &[f64],
-    ) -> Result<Vec<[f64; 3]>, Failure> {
+    pub fn deviations(&mut self, observation: &Observation) -> Result<Vec<[f64; 3]>, Failure> {
         let mut values = Vec::new();
-        self.each_deviation(scratch, observation, x, |deviation| values.push(deviation))?;
+        self.each_deviation(observation, |deviation| values.push(deviation))?;
         Ok(values)
     }
 
     /// Passes each of the [deviations](Self::deviations) to `take`.
     pub(super) fn each_deviation(
-        &self,
-        scratch: &mut Scratch,
+        &mut self,
         observation: &Observation,
-        x: &[f64],
         mut take: impl FnMut([f64; 3]),
     ) -> Result<(), Failure> {
-        self.chain(scratch, observation, x)?;
-        let last = scratch.tool();
+        let model = self.model;
+        self.chain(observation)?;
+        let last = self.tool_pose();
         match &observation.measured {
             Measurement::Points(points) => {
                 for (j, measured) in points.iter().enumerate() {
                     let Some(measured) = measured else { continue };
-                    take(difference(last.apply(self.target(scratch, observation, j)?), *measured));
+                    take(difference(last.apply(self.target(observation, j)?), *measured));
                 }
             }
             Measurement::Pose(measured) => take(difference(last.position(), measured.position())),
             Measurement::Readings(readings) => {
-                if let Some(camera) = &scratch.camera {
-                    self.each_off_sight(camera, &last, readings, take);
+                if let Some(camera) = &self.camera {
+                    model.each_off_sight(camera, &last, readings, take);
                     return Ok(());
                 }
-                let geometry = self.geometry(scratch);
-                for (i, measured) in readings.iter().enumerate().take(self.observables.len()) {
-                    let Some(measured) = measured.filter(|_| !self.observables[i].kind.is_angle) else {
+                let geometry = self.geometry();
+                for (i, measured) in readings.iter().enumerate().take(model.observables.len()) {
+                    let Some(measured) = measured.filter(|_| !model.observables[i].kind.is_angle) else {
                         continue;
                     };
-                    let evaluation = self.evaluate(scratch, &geometry, i);
+                    let evaluation = self.evaluate(&geometry, i);
                     let along = geometry.base.turn(evaluation.along);
                     take(along.map(|axis| (evaluation.value - measured) * axis));
                 }
@@ -63,6 +57,13 @@ impl Model<'_> {
         Ok(())
     }
 
+    /// Returns the norms of the [deviations](Self::deviations).
+    pub fn distances(&mut self, observation: &Observation) -> Result<Vec<f64>, Failure> {
+        Ok(self.deviations(observation)?.into_iter().map(sampling::norm).collect())
+    }
+}
+
+impl Model<'_> {
     /// Passes the vector of each corner from its line of sight to `take`; if the camera is on the
     /// tool, that of the line of sight from the corner.
     fn each_off_sight(
@@ -79,7 +80,7 @@ impl Model<'_> {
         }
     }
 
-    /// Returns whether a row has any [deviations](Self::deviations).
+    /// Returns whether a row has any [deviations](EvaluatedModel::deviations).
     pub(super) fn has_deviations(&self, observation: &Observation) -> bool {
         match &observation.measured {
             Measurement::Points(points) => points.iter().any(Option::is_some),
@@ -89,16 +90,6 @@ impl Model<'_> {
                 values.any(|(value, reading)| value.is_some() && !reading.kind.is_angle)
             }
         }
-    }
-
-    /// Returns the norms of the [deviations](Self::deviations).
-    pub fn distances(
-        &self,
-        scratch: &mut Scratch,
-        observation: &Observation,
-        x: &[f64],
-    ) -> Result<Vec<f64>, Failure> {
-        Ok(self.deviations(scratch, observation, x)?.into_iter().map(sampling::norm).collect())
     }
 
     /// Computes the figures of the position errors of all observations at `x`; the length unit.
@@ -123,13 +114,15 @@ impl Model<'_> {
         x: impl Fn(usize) -> Option<&'x [f64]> + Sync,
     ) -> Result<Distances, Failure> {
         let block = |first: usize, rows: &[R]| {
-            let mut scratch = self.scratch();
+            let mut here = self.at(&[]);
             let mut norms = Vec::with_capacity(rows.len());
             for (i, row) in rows.iter().enumerate() {
                 let Some(x) = x(first + i) else { continue };
+                here.x.clear();
+                here.x.extend(x);
                 let row = row.borrow();
                 let norm = |deviation| norms.push((row.configuration, sampling::norm(deviation)));
-                self.each_deviation(&mut scratch, row, x, norm)?;
+                here.each_deviation(row, norm)?;
             }
             Ok(norms)
         };

@@ -83,10 +83,10 @@ pub fn drift<R: Borrow<Observation> + Sync>(
     }
     let errors = |take: &mut dyn FnMut([f64; 3])| {
         let block = |_: usize, order: &[u32]| {
-            let mut scratch = model.scratch();
+            let mut at = model.at(x);
             let mean = |i: &u32| {
                 let (mut sum, mut count) = ([0.0; 3], 0.0);
-                model.each_deviation(&mut scratch, row(*i), x, |error| {
+                at.each_deviation(row(*i), |error| {
                     sum = core::array::from_fn(|axis| sum[axis] + error[axis]);
                     count += 1.0;
                 })?;

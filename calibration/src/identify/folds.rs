@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::fit::REJECTED;
-use super::linearize::{push, push_distances, with_priors};
+use super::linearize::{push_distances, with_priors};
 use super::triangle::{Problem, Triangle};
 use super::{Configurations, Distances, Failure, Fit, Model, Observation};
 use abbe_analysis::in_order;
@@ -47,11 +47,11 @@ fn triangles(
 ) -> Result<Vec<Triangle>, Failure> {
     let one = |fold: usize| {
         let mut triangle = Triangle::new(model.unknowns.len());
-        let mut scratch = model.scratch();
+        let mut at = model.at(x);
         for (i, observation) in
             data.iter().enumerate().filter(|(i, _)| folds.fold[*i] as usize == fold && weights[*i] > 0.0)
         {
-            push(model, &mut scratch, observation, x, weights[i], &mut triangle)?;
+            at.push(observation, weights[i], &mut triangle)?;
         }
         Ok(triangle)
     };

@@ -19,11 +19,11 @@ impl Model<'_> {
     pub fn hand_eye(&self, rows: &[Observation], station: usize) -> Result<Option<[Pose; 2]>, Failure> {
         let mut bare = Self { mountings: vec![Pose::IDENTITY; self.mountings.len()], ..self.clone() };
         bare.stations[station].pose = Pose::IDENTITY;
-        let (mut scratch, x) = (bare.scratch(), vec![0.0; self.unknowns.len()]);
+        let mut bare = bare.at(&vec![0.0; self.unknowns.len()]);
         let mut pairs = Vec::new();
         for row in rows.iter().filter(|row| row.station as usize == station) {
             if let Measurement::Pose(measured) = &row.measured {
-                pairs.push((bare.pose(&mut scratch, row, &x)?, **measured));
+                pairs.push((bare.pose(row)?, **measured));
             }
         }
         Ok(closed_form(&pairs))

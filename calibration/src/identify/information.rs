@@ -5,6 +5,7 @@ use core::convert::Infallible;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SMatrix};
 
 use super::blocks::by_blocks;
+use super::evaluated_model::EvaluatedModel;
 use super::{Failure, Measurement, Model, Observation};
 use abbe_analysis::decompose::symmetric_eigen;
 use abbe_analysis::{in_order, sampling};
@@ -53,14 +54,13 @@ impl Candidates {
         let most = list.iter().map(Observation::count).max().unwrap_or_default();
         let rows = model.camera.map_or(most, |camera| most.min(camera.rank()));
         let arm = sampling::arm_length(model.manipulator, &model.s).map_err(Failure::Machine)?;
-        let x = vec![0.0; p];
         let block = |first: usize, part: &[Observation]| {
             let mut stack = DMatrix::zeros(rows * part.len(), p);
-            let mut scratch = model.scratch();
+            let mut nominal = model.at(&vec![0.0; p]);
             for (i, observation) in part.iter().enumerate() {
-                let observation = model.nominally_seen(&mut scratch, observation)?;
+                let observation = nominal.nominally_seen(observation)?;
                 let (mut own, mut at) = (DMatrix::zeros(most, p), 0);
-                model.linear(&mut scratch, &observation, &x, |_, row| {
+                nominal.linear(&observation, |_, row| {
                     row.iter().enumerate().for_each(|(k, value)| own[(at, k)] = *value);
                     at += 1;
                 })?;
@@ -244,17 +244,13 @@ impl Information {
     }
 }
 
-impl Model<'_> {
-    /// Replaces the measurement by that of the nominal machine, where derivatives depend on it: the
+impl EvaluatedModel<'_> {
+    /// Replaces the measurement by that of this machine, where derivatives depend on it: the
     /// derivative of a rotation vector depends on the residual.
-    pub fn nominally_seen(
-        &self,
-        scratch: &mut super::Scratch,
-        observation: &Observation,
-    ) -> Result<Observation, Failure> {
+    pub fn nominally_seen(&mut self, observation: &Observation) -> Result<Observation, Failure> {
         let mut expected = observation.clone();
         if let Measurement::Pose(pose) = &mut expected.measured {
-            **pose = self.pose(scratch, observation, &vec![0.0; self.unknowns.len()])?;
+            **pose = self.pose(observation)?;
         }
         Ok(expected)
     }

@@ -24,10 +24,10 @@ pub fn joints_at_values(
     let variables = &model.manipulator.description().variables;
     let arm = sampling::arm_length(model.manipulator, &model.s).map_err(Failure::Machine)?;
     let size = |j: &usize| if variables[*j].kind == VariableKind::Revolute { 1.0 } else { arm };
-    let mut scratch = model.scratch();
+    let mut at = model.at(x);
     let mut place = observation.clone();
     let mut off = |place: &Observation| -> Result<DVector<f64>, Failure> {
-        let values = model.values(&mut scratch, place, x)?;
+        let values = at.values(place)?;
         let readings = values.iter().zip(wanted).zip(&model.observables);
         let off = readings.filter_map(|((value, wanted), reading)| {
             Some((value - (*wanted)?) / if reading.kind.is_angle { 1.0 } else { arm })

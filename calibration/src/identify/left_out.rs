@@ -76,7 +76,7 @@ impl LeftOut {
         let (mut at, mut ranges, mut configuration) = (0, Vec::new(), Vec::new());
         let mut x = fit.x.clone();
         x.resize(model.unknowns.len(), 0.0);
-        let mut scratch = model.scratch();
+        let mut model = model.at(&x);
         for fold in &rows {
             let first = at;
             for &i in fold {
@@ -84,7 +84,7 @@ impl LeftOut {
                 let factors = (candidates.factors)(&data[i]);
                 // f(here) ∂g(here) − f(there) ∂g(there), for a number that refers to another row.
                 let there = data[i].from().map(candidates.factors);
-                model.linear_by_row(&mut scratch, &data[i], &x, |residual, derivatives, of_there| {
+                model.linear_by_row(&data[i], |residual, derivatives, of_there| {
                     for (j, ModelTerm { unknown, factor }) in terms.iter().enumerate() {
                         let here = factor.map_or(1.0, |factor| factors[factor]);
                         let mut derivative = derivatives[*unknown] * here;

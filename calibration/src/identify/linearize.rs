@@ -1,7 +1,7 @@
 //! Linearization of the residuals of all observations, with priors.
 
 use super::blocks::by_blocks;
-use super::scratch::Scratch;
+use super::evaluated_model::EvaluatedModel;
 use super::triangle::{Problem, Triangle};
 use super::{Failure, Model, Observation};
 
@@ -15,11 +15,11 @@ pub(super) fn linearize(
 ) -> Result<Triangle, Failure> {
     let block = |first: usize, rows: &[Observation]| {
         let mut triangle = Triangle::new(model.unknowns.len());
-        let mut scratch = model.scratch();
+        let mut at = model.at(x);
         for (i, observation) in rows.iter().enumerate() {
             let weight = weights.map_or(1.0, |weights| weights[first + i]);
             if weight > 0.0 {
-                push(model, &mut scratch, observation, x, weight, &mut triangle)?;
+                at.push(observation, weight, &mut triangle)?;
             }
         }
         Ok(triangle)
@@ -30,17 +30,12 @@ pub(super) fn linearize(
     Ok(all)
 }
 
-/// Appends the rows of one observation: a step solves `J dx = −r`.
-pub(super) fn push(
-    model: &Model,
-    scratch: &mut Scratch,
-    observation: &Observation,
-    x: &[f64],
-    weight: f64,
-    triangle: &mut Triangle,
-) -> Result<(), Failure> {
-    let weight = weight.sqrt();
-    model.linear(scratch, observation, x, |residual, row| triangle.push(row, -residual, weight))
+impl EvaluatedModel<'_> {
+    /// Appends the rows of one observation: a step solves `J dx = −r`.
+    pub(super) fn push(&mut self, row: &Observation, weight: f64, to: &mut Triangle) -> Result<(), Failure> {
+        let weight = weight.sqrt();
+        self.linear(row, |residual, derivatives| to.push(derivatives, -residual, weight))
+    }
 }
 
 /// Appends the rows of the known distances.

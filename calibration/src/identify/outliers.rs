@@ -136,11 +136,11 @@ impl Solver<'_> {
         };
         let left_out: Vec<usize> = (0..self.data.len()).filter(|i| self.weights[*i] == 0.0).collect();
         let block = |_: usize, rows: &[usize]| {
-            let mut scratch = self.model.scratch();
+            let mut at = self.at();
             let mut back = Vec::new();
             for i in rows.iter().copied() {
                 let (mut r, mut u) = (Vec::new(), Vec::new());
-                self.linear(&mut scratch, i, |residual, row| {
+                at.linear(&self.data[i], |residual, row| {
                     r.push(residual);
                     u.push(l.tr_mul(&DVector::from_column_slice(row)));
                 })?;

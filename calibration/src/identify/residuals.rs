@@ -1,21 +1,17 @@
 //! Residuals: model minus measurement, and their derivatives with respect to the unknowns.
 
 use super::columns::turned;
-use super::scratch::Scratch;
-use super::{Failure, Measurement, Model, Observation, ReferenceLength};
+use super::evaluated_model::EvaluatedModel;
+use super::{Failure, Measurement, Observation, ReferenceLength};
 use abbe_core::{Error, Pose, Quantity, rotation_vector};
 
-impl Model<'_> {
-    /// Returns the value of each of the [observables](Self::observables); ignores the measurement.
-    pub fn values(
-        &self,
-        scratch: &mut Scratch,
-        observation: &Observation,
-        x: &[f64],
-    ) -> Result<Vec<f64>, Failure> {
-        self.chain(scratch, observation, x)?;
-        let geometry = self.geometry(scratch);
-        Ok((0..self.observables.len()).map(|i| self.evaluate(scratch, &geometry, i).value).collect())
+impl EvaluatedModel<'_> {
+    /// Returns the value of each of the [observables](super::Model::observables); ignores the
+    /// measurement.
+    pub fn values(&mut self, observation: &Observation) -> Result<Vec<f64>, Failure> {
+        self.chain(observation)?;
+        let geometry = self.geometry();
+        Ok((0..self.model.observables.len()).map(|i| self.evaluate(&geometry, i).value).collect())
     }
 
     /// Passes the residuals at `x` to `take`, one by one, in units of the uncertainty of the
@@ -24,24 +20,20 @@ impl Model<'_> {
     /// There are three for each visible target, six for a pose (position, then rotation vector),
     /// one for each reading.
     pub(super) fn residuals(
-        &self,
-        scratch: &mut Scratch,
+        &mut self,
         observation: &Observation,
-        x: &[f64],
         mut take: impl FnMut(f64),
     ) -> Result<(), Failure> {
-        self.numbers::<false>(scratch, observation, x, |residual, _, _| take(residual))
+        self.numbers::<false>(observation, |residual, _, _| take(residual))
     }
 
     /// Passes each residual and its derivatives with respect to all unknowns to `row`.
     pub(super) fn linear(
-        &self,
-        scratch: &mut Scratch,
+        &mut self,
         observation: &Observation,
-        x: &[f64],
         mut row: impl FnMut(f64, &[f64]),
     ) -> Result<(), Failure> {
-        self.numbers::<true>(scratch, observation, x, |residual, derivatives, _| row(residual, derivatives))
+        self.numbers::<true>(observation, |residual, derivatives, _| row(residual, derivatives))
     }
 
     /// Passes each residual, its derivatives with respect to all unknowns, and the part of these
@@ -50,39 +42,34 @@ impl Model<'_> {
     ///
     /// A reading `g(here) − g(there)` has the derivatives `here − there`, and `−there` is the part.
     pub(super) fn linear_by_row(
-        &self,
-        scratch: &mut Scratch,
+        &mut self,
         observation: &Observation,
-        x: &[f64],
         row: impl FnMut(f64, &[f64], &[f64]),
     ) -> Result<(), Failure> {
-        self.numbers::<true>(scratch, observation, x, row)
+        self.numbers::<true>(observation, row)
     }
 
     /// Calls `row(residual, derivatives, part of the row before)` for each number; without
     /// derivatives unless `DERIVED`.
     fn numbers<const DERIVED: bool>(
-        &self,
-        scratch: &mut Scratch,
+        &mut self,
         observation: &Observation,
-        x: &[f64],
         mut row: impl FnMut(f64, &[f64], &[f64]),
     ) -> Result<(), Failure> {
-        self.chain(scratch, observation, x)?;
+        let model = self.model;
+        self.chain(observation)?;
         let weight = observation.weight.sqrt();
-        let [length, angle] = [self.uncertainty.length, self.uncertainty.angle].map(|sigma| weight / sigma);
-        let last = scratch.tool();
-        let mut lines = core::mem::take(&mut scratch.lines);
-        let derived = if DERIVED { self.unknowns.len() } else { 0 };
+        let [length, angle] = [model.uncertainty.length, model.uncertainty.angle].map(|sigma| weight / sigma);
+        let last = self.tool_pose();
+        let mut lines = core::mem::take(&mut self.lines);
+        let derived = if DERIVED { model.unknowns.len() } else { 0 };
         match &observation.measured {
             Measurement::Points(points) => {
                 for (j, measured) in points.iter().enumerate() {
                     let Some(measured) = measured else { continue };
-                    let point = last.apply(self.target(scratch, observation, j)?);
-                    let target = scratch.first_target + j;
-                    fill(&mut lines, derived, |k| {
-                        self.point(scratch, k, target, point).map(|moved| moved * length)
-                    });
+                    let point = last.apply(self.target(observation, j)?);
+                    let target = self.first_target + j;
+                    fill(&mut lines, derived, |k| self.point(k, target, point).map(|moved| moved * length));
                     for axis in 0..3 {
                         row((point[axis] - measured[axis]) * length, &lines[axis], &[]);
                     }
@@ -90,7 +77,7 @@ impl Model<'_> {
             }
             Measurement::Pose(measured) => {
                 let point = last.position();
-                let place = |k| self.point(scratch, k, usize::MAX, point).map(|moved| moved * length);
+                let place = |k| self.point(k, usize::MAX, point).map(|moved| moved * length);
                 fill(&mut lines, derived, place);
                 for axis in 0..3 {
                     row((point[axis] - measured.0[3][axis]) * length, &lines[axis], &[]);
@@ -98,24 +85,22 @@ impl Model<'_> {
                 let mut difference = last.then(&measured.inverse());
                 difference.0[3] = [0.0; 3];
                 let turn = rotation_vector(&difference);
-                fill(&mut lines, derived, |k| {
-                    turned(turn, self.turn(scratch, k)).map(|turned| turned * angle)
-                });
+                fill(&mut lines, derived, |k| turned(turn, self.turn(k)).map(|turned| turned * angle));
                 for axis in 0..3 {
                     row(turn[axis] * angle, &lines[axis], &[]);
                 }
             }
             Measurement::Readings(values) => {
-                let geometry = self.geometry(scratch);
-                let size = self.relative_size(x);
-                for (i, measured) in values.iter().enumerate().take(self.observables.len()) {
+                let geometry = self.geometry();
+                let size = self.relative_size();
+                for (i, measured) in values.iter().enumerate().take(model.observables.len()) {
                     let Some(measured) = measured else { continue };
-                    let size = size.filter(|_| self.observables[i].is_blind_to_size());
+                    let size = size.filter(|_| model.observables[i].is_blind_to_size());
                     let share = size.map_or(1.0, |size| size.share);
-                    let unit = weight / (self.observables[i].uncertainty * share);
-                    let evaluation = self.evaluate(scratch, &geometry, i);
+                    let unit = weight / (model.observables[i].uncertainty * share);
+                    let evaluation = self.evaluate(&geometry, i);
                     let along = geometry.base.turn(evaluation.along);
-                    let derivative = |k| self.observable_derivative(scratch, i, &evaluation, along, k);
+                    let derivative = |k| self.observable_derivative(i, &evaluation, along, k);
                     fill(&mut lines, derived, |k| {
                         let [here, there] = derivative(k);
                         [(here - there) * unit, -there * unit, 0.0]
@@ -129,30 +114,25 @@ impl Model<'_> {
                 }
             }
         }
-        scratch.lines = lines;
+        self.lines = lines;
         Ok(())
     }
 
     /// Returns the size of the machine relative to the nominal one; none if it is not among the
     /// unknowns.
-    fn relative_size(&self, x: &[f64]) -> Option<RelativeSize> {
-        let ReferenceLength { error, length } = self.reference_length?;
-        let unknown = self.unknowns.iter().position(|unknown| *unknown == error)?;
-        Some(RelativeSize { unknown, share: 1.0 + x.get(unknown)? / length, length })
+    fn relative_size(&self) -> Option<RelativeSize> {
+        let ReferenceLength { error, length } = self.model.reference_length?;
+        let unknown = self.model.unknowns.iter().position(|unknown| *unknown == error)?;
+        Some(RelativeSize { unknown, share: 1.0 + self.x.get(unknown)? / length, length })
     }
 
     /// Returns the position of target `j` of the row's placement in the frame of the tool.
-    pub(super) fn target(
-        &self,
-        scratch: &Scratch,
-        observation: &Observation,
-        j: usize,
-    ) -> Result<[f64; 3], Failure> {
+    pub(super) fn target(&self, observation: &Observation, j: usize) -> Result<[f64; 3], Failure> {
         let found = || match &observation.measured {
             Measurement::Points(points) => points.len(),
             _ => 0,
         };
-        let targets = &scratch.targets[self.targets_of(scratch.placement)];
+        let targets = &self.targets[self.model.targets_of(self.placement)];
         targets.get(j).copied().ok_or_else(|| Failure::Observation {
             line: observation.line,
             error: Error::Count { quantity: Quantity::Pose, expected: targets.len(), found: found() },
@@ -161,38 +141,23 @@ impl Model<'_> {
 
     /// Returns measurement minus model at `x` for each number, and the derivatives of the model, in
     /// units of the uncertainty.
-    pub fn linearized(
-        &self,
-        scratch: &mut Scratch,
-        observation: &Observation,
-        x: &[f64],
-    ) -> Result<Vec<(f64, Vec<f64>)>, Failure> {
+    pub fn linearized(&mut self, observation: &Observation) -> Result<Vec<(f64, Vec<f64>)>, Failure> {
         let mut numbers = Vec::new();
-        self.linear(scratch, observation, x, |residual, row| numbers.push((-residual, row.to_vec())))?;
+        self.linear(observation, |residual, row| numbers.push((-residual, row.to_vec())))?;
         Ok(numbers)
     }
 
     /// Returns measurement minus model at `x` for each number, in units of the uncertainty.
-    pub fn differences(
-        &self,
-        scratch: &mut Scratch,
-        observation: &Observation,
-        x: &[f64],
-    ) -> Result<Vec<f64>, Failure> {
+    pub fn differences(&mut self, observation: &Observation) -> Result<Vec<f64>, Failure> {
         let mut numbers = Vec::new();
-        self.residuals(scratch, observation, x, |residual| numbers.push(-residual))?;
+        self.residuals(observation, |residual| numbers.push(-residual))?;
         Ok(numbers)
     }
 
     /// Returns the pose of the tool, and the derivatives of its point with respect to each unknown.
-    pub fn tool(
-        &self,
-        scratch: &mut Scratch,
-        observation: &Observation,
-        x: &[f64],
-    ) -> Result<(Pose, Vec<[f64; 3]>), Failure> {
-        let pose = self.pose(scratch, observation, x)?;
-        let moves = (0..self.unknowns.len()).map(|k| self.point(scratch, k, usize::MAX, pose.position()));
+    pub fn tool(&mut self, observation: &Observation) -> Result<(Pose, Vec<[f64; 3]>), Failure> {
+        let pose = self.pose(observation)?;
+        let moves = (0..self.model.unknowns.len()).map(|k| self.point(k, usize::MAX, pose.position()));
         Ok((pose, moves.collect()))
     }
 }

@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt};
 use rand_distr::Normal;
 
-use super::{Failure, Measurement, Model, Observation, Scratch, Unknown, joints_at_values};
+use super::{Failure, Measurement, Model, Observation, Unknown, joints_at_values};
 use abbe_analysis::ErrorParts;
 use abbe_analysis::sampling::stream;
 use abbe_core::Class;
@@ -50,7 +50,6 @@ pub struct Simulated<'a> {
     /// Joints that are not equal in all rows.
     moved: Vec<usize>,
     chance: Chance,
-    scratch: Scratch,
 }
 
 impl<'a> Simulated<'a> {
@@ -69,12 +68,12 @@ impl<'a> Simulated<'a> {
         let model = model.with(unknowns);
         let first = list.first().map_or(&[][..], |row| &row.q);
         let moved = (0..first.len()).filter(|j| list.iter().any(|row| row.q[*j] != first[*j])).collect();
-        Self { scratch: model.scratch(), model, random, parts, moved, chance: *chance }
+        Self { model, random, parts, moved, chance: *chance }
     }
 
     /// Simulates row `i`.
     pub fn row(&mut self, i: usize, planned: &Observation) -> Result<Observation, Failure> {
-        let Self { model, random, parts, moved, chance, scratch } = self;
+        let Self { model, random, parts, moved, chance } = self;
         let mut numbers = stream(chance.seed ^ APART, i);
         // One machine has one value of each tolerance.
         let mut machine = stream(chance.seed ^ APART, usize::MAX);
@@ -90,8 +89,9 @@ impl<'a> Simulated<'a> {
             });
         }
         let planned = &touching(model, planned, &x, moved, chance, &mut numbers)?;
-        let pose = model.pose(scratch, planned, &x)?;
-        let readings = model.values(scratch, planned, &x)?;
+        let mut at = model.at(&x);
+        let pose = at.pose(planned)?;
+        let readings = at.values(planned)?;
         let is_outlier = numbers.random::<f64>() < chance.outliers;
         let mut wrong = || {
             if is_outlier { numbers.random_range(-chance.outlier_size..=chance.outlier_size) } else { 0.0 }

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::blocks::by_blocks;
+use super::evaluated_model::EvaluatedModel;
 use super::linearize::{linearize, with_priors};
-use super::scratch::Scratch;
 use super::triangle::Problem;
 use super::{Failure, Loss, Model, Observation, Options};
 
@@ -146,24 +146,19 @@ impl<'a> Solver<'a> {
         DVector::from_vec(self.problem.lengths())
     }
 
-    /// Evaluates residuals and derivatives of row `i`.
-    pub(super) fn linear(
-        &self,
-        scratch: &mut Scratch,
-        i: usize,
-        row: impl FnMut(f64, &[f64]),
-    ) -> Result<(), Failure> {
-        self.model.linear(scratch, &self.data[i], self.x.as_slice(), row)
+    /// Returns the model at the present unknowns.
+    pub(super) fn at(&self) -> EvaluatedModel<'_> {
+        self.model.at(self.x.as_slice())
     }
 
     /// Computes all residuals at `x`, and their norm for each observation.
     pub(super) fn residuals(&self, x: &DVector<f64>) -> Result<Residuals, Failure> {
         let block = |_: usize, rows: &[Observation]| {
-            let mut scratch = self.model.scratch();
+            let mut at = self.model.at(x.as_slice());
             let (mut all, mut norms) = (Vec::new(), Vec::with_capacity(rows.len()));
             for observation in rows {
                 let mut square = 0.0;
-                self.model.residuals(&mut scratch, observation, x.as_slice(), |residual| {
+                at.residuals(observation, |residual| {
                     all.push(residual);
                     square += residual * residual;
                 })?;

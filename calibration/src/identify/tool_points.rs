@@ -19,15 +19,15 @@ impl Model<'_> {
     pub fn tool_points(&self, used: &[Observation]) -> Result<ToolPoints, Failure> {
         let single = self.targets_of(0).len() == 1
             && !self.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Tool(..)));
-        let (mut scratch, x) = (self.scratch(), vec![0.0; self.unknowns.len()]);
+        let mut at = self.at(&vec![0.0; self.unknowns.len()]);
         let one = |row: &Observation| {
-            self.chain(&mut scratch, row, &x)?;
+            at.chain(row)?;
             let (target, point) = match single {
-                true => (scratch.first_target, scratch.targets[scratch.first_target]),
+                true => (at.first_target, at.targets[at.first_target]),
                 false => (usize::MAX, [0.0; 3]),
             };
-            let point = scratch.tool().apply(point);
-            let moves = (0..x.len()).map(|k| self.point(&scratch, k, target, point).into());
+            let point = at.tool_pose().apply(point);
+            let moves = (0..self.unknowns.len()).map(|k| at.point(k, target, point).into());
             Ok(Matrix3xX::from_columns(&moves.collect::<Vec<Vector3<f64>>>()))
         };
         Ok(ToolPoints { moves: used.iter().map(one).collect::<Result<_, _>>()? })

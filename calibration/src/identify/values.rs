@@ -6,10 +6,10 @@ use std::ops::{Deref, DerefMut};
 const FEW: usize = 7;
 
 /// Values of the joints: a slice of numbers, stored inline up to seven.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Values(Kept);
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 enum Kept {
     Few(u8, [f64; FEW]),
     Many(Box<[f64]>),
@@ -32,12 +32,6 @@ impl DerefMut for Values {
             Kept::Few(count, values) => &mut values[..usize::from(*count)],
             Kept::Many(values) => values,
         }
-    }
-}
-
-impl PartialEq for Values {
-    fn eq(&self, other: &Self) -> bool {
-        **self == **other
     }
 }
 
@@ -84,10 +78,10 @@ impl From<Vec<f64>> for Inputs {
 
 /// Positions of the targets, none where one was hidden: a slice of points, a single one stored
 /// inline.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Points(Seen);
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 enum Seen {
     One(Option<[f64; 3]>),
     Many(Box<[Option<[f64; 3]>]>),
@@ -110,12 +104,6 @@ impl DerefMut for Points {
             Seen::One(point) => std::slice::from_mut(point),
             Seen::Many(points) => points,
         }
-    }
-}
-
-impl PartialEq for Points {
-    fn eq(&self, other: &Self) -> bool {
-        **self == **other
     }
 }
 

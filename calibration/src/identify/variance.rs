@@ -34,7 +34,7 @@ pub fn variance_components(
     let count = model.observables.iter().map(|reading| reading.instrument + 1).max().unwrap_or(2);
     let mut components = vec![VarianceComponent::default(); count];
     let mut squares = vec![0.0; count];
-    let mut scratch = kept.scratch();
+    let mut kept = kept.at(&x);
     for (observation, weight) in data.iter().zip(&fit.weights).filter(|(_, weight)| **weight > 0.0) {
         let instruments: Vec<usize> = match &observation.measured {
             Measurement::Readings(values) => {
@@ -45,7 +45,7 @@ pub fn variance_components(
             Measurement::Points(_) => vec![0; observation.count()],
         };
         let mut instruments = instruments.into_iter();
-        kept.linear(&mut scratch, observation, &x, |residual, row| {
+        kept.linear(observation, |residual, row| {
             let instrument = instruments.next().unwrap_or(0);
             let row = nalgebra::DVector::from_column_slice(row) * weight.sqrt();
             // j (RᵀR)⁻¹ jᵀ = |R⁻ᵀ j|².

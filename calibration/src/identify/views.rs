@@ -25,12 +25,12 @@ impl Solver<'_> {
         }
         let p = self.x.len();
         let block = |_: usize, rows: &[usize]| {
-            let mut scratch = self.model.scratch();
+            let mut at = self.at();
             let (mut between, mut all, mut m, mut n) = (0.0, 0.0, 0, 0);
             for i in rows {
                 let (mut columns, mut residuals) = (Vec::new(), Vec::new());
                 let weight = self.weights[*i].sqrt();
-                self.linear(&mut scratch, *i, |residual, row| {
+                at.linear(&self.data[*i], |residual, row| {
                     columns.extend(row.iter().map(|value| weight * value));
                     residuals.push(weight * residual);
                 })?;

@@ -19,7 +19,7 @@ use abbe_study::explore::{self, Explore};
 use abbe_study::jacobian::read_joint_variables;
 use clap::Args;
 
-use crate::arguments::{Dated, Running, Showing, Subject, Writing, study, whole};
+use crate::arguments::{Common, Dated, Showing, Subject, study, whole};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write, note};
@@ -83,15 +83,11 @@ pub(crate) struct Analyze {
     #[command(flatten)]
     dated: Dated,
     #[command(flatten)]
-    writing: Writing,
-    #[command(flatten)]
-    showing: Showing,
-    #[command(flatten)]
-    running: Running,
+    common: Common,
 }
 
 pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
-    arguments.running.start()?;
+    arguments.common.running.start()?;
     let mut console = Console::default();
     if let (Some(shard), Some(file)) = (arguments.shard, &arguments.out) {
         return part(arguments, (shard, file), &mut console);
@@ -104,7 +100,7 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
     let report = match &arguments.out {
         None => dated(job.run(&mut console)?),
         Some(folder) => {
-            let mut outputs = Outputs::new(&job, arguments.writing.force);
+            let mut outputs = Outputs::new(&job, arguments.common.writing.force);
             let drawn = job.monte_carlo.is_some();
             let mut files =
                 Files::create(folder, &mut outputs, &job.machine().spec, VaryingColumns::new(&job), drawn)?;
@@ -124,7 +120,7 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
         None => "--full for every table, --out DIR for a page with figures",
         Some(_) => "--full for every table",
     };
-    outcome(&report, arguments.check, &arguments.showing, next)
+    outcome(&report, arguments.check, &arguments.common.showing, next)
 }
 
 /// Writes the files of a report into its folder. `live` is the data of its live panel, if
@@ -189,7 +185,7 @@ fn part(
     let job = question.job(&mut ())?;
     let study = arguments.study.iter().cloned();
     let inputs = machine.files().into_iter().chain(job.files()).chain(study).collect::<Vec<_>>();
-    let mut outputs = Outputs::new(&inputs, arguments.writing.force);
+    let mut outputs = Outputs::new(&inputs, arguments.common.writing.force);
     let mut pending = outputs.file(file)?;
     let part = Part::new(question, shard, console)?;
     pending.write_all(&part.to_bytes()).map_err(|error| cannot_write(file, &error))?;

@@ -5,5 +5,5 @@ mod help;
 mod shared;
 mod values;
 
-pub(crate) use shared::{Changes, Dated, Measured, Page, Running, Showing, Subject, Writing, study};
+pub(crate) use shared::{Changes, Common, Dated, Measured, Page, Running, Showing, Subject, Writing, study};
 pub(crate) use values::{duration, length, named, share, whole};

@@ -193,6 +193,17 @@ impl Running {
     }
 }
 
+// What most commands have after their own options.
+#[derive(Args, Debug)]
+pub(crate) struct Common {
+    #[command(flatten)]
+    pub(crate) writing: Writing,
+    #[command(flatten)]
+    pub(crate) showing: Showing,
+    #[command(flatten)]
+    pub(crate) running: Running,
+}
+
 /// Returns the given study, or the one that belongs to the machine. A study found beside the spec
 /// is named in a note.
 pub(crate) fn study(

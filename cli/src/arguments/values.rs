@@ -48,8 +48,8 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
 
 /// Parses a length that must not be negative, in the length unit of the spec.
 pub(crate) fn length(option: &str, text: &str, spec: &Spec) -> Result<f64, Failure> {
-    let mut document = Document::new(option, text);
-    let value = parse_value(&mut document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
+    let document = Document::new(option, text);
+    let value = parse_value(&document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
     match document.finish(value)? {
         value if value >= 0.0 => Ok(value),
         _ => Err(Failure::new(option, "this must not be negative").help(format!("write `{option} 0.04mm`"))),

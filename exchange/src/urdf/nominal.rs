@@ -31,7 +31,7 @@ pub(super) struct NominalJoint {
 
 impl NominalChain {
     /// Reads a file; mistakes go to the document.
-    pub(super) fn read(document: &mut Document, ends: &Ends) -> Option<Self> {
+    pub(super) fn read(document: &Document, ends: &Ends) -> Option<Self> {
         let chain = read(document, ends, false, &mut AngleRounding::new(false), &mut ())?;
         if let Some(frame) = chain.frames.iter().find(|frame| frame.upward) {
             let message =

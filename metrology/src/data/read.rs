@@ -40,20 +40,20 @@ impl Map {
         let text = Arc::clone(&document.text);
         document.length = spec.length;
         let tables = document.tables(&text);
-        let map = tables.and_then(|tables| read_map(&Section::root(&tables), &mut document, spec));
-        merge_duplicates(&mut document);
+        let map = tables.and_then(|tables| read_map(&Section::root(&tables, &document), spec));
+        merge_duplicates(&document);
         document.finish(map)
     }
 }
 
 /// Merges diagnostics with equal messages into the first one, which lists the other lines.
-fn merge_duplicates(document: &mut Document) {
+fn merge_duplicates(document: &Document) {
     let line = |mistake: &Diagnostic| {
         let start = mistake.span.as_ref().map_or(0, |span| span.start.min(document.text.len()));
         document.text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count() + 1
     };
     let mut kept: Vec<(Diagnostic, Vec<String>)> = Vec::new();
-    for mistake in std::mem::take(&mut document.found) {
+    for mistake in document.found.take() {
         let same =
             kept.iter_mut().find(|(first, _)| first.message == mistake.message && first.help == mistake.help);
         match same {
@@ -61,7 +61,7 @@ fn merge_duplicates(document: &mut Document) {
             None => kept.push((mistake, Vec::new())),
         }
     }
-    document.found = kept
+    let kept = kept
         .into_iter()
         .map(|(mut first, others)| {
             if !others.is_empty() {
@@ -75,42 +75,42 @@ fn merge_duplicates(document: &mut Document) {
             first
         })
         .collect();
+    document.found.replace(kept);
 }
 
-fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Map> {
-    if !document.is_kind(root, "data") {
+fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
+    if !root.is_kind("data") {
         return None;
     }
-    root.check_keys(&[&keys::FILE, &keys::FORMS, &keys::STANDS], document);
-    let head = root.required("data", document)?;
-    let head = document.table(&head, "[data]", &[&keys::DATA])?;
-    let joints = joints(root, document, spec);
-    let inputs = inputs(root, document, spec);
-    let mut named = |key: &str| match head.get(key) {
-        Some(item) => column(&item, document).map(Some),
+    root.check_keys(&[&keys::FILE, &keys::FORMS, &keys::STANDS]);
+    let head = root.required("data")?.table("[data]", &[&keys::DATA])?;
+    let joints = joints(root, spec);
+    let inputs = inputs(root, spec);
+    let named = |key: &str| match head.get(key) {
+        Some(item) => column(&item).map(Some),
         None => Some(None),
     };
     let (group, direction, time, setup) = (named("group"), named("direction"), named("time"), named("setup"));
     let stated = match (head.get("uncertainty"), root.get("instrument")) {
         (None, Some(_)) => None,
         _ => {
-            let item = head.required("uncertainty", document);
-            item.and_then(|item| deviation(&item, document, Dimension::LENGTH))
+            let item = head.required("uncertainty");
+            item.and_then(|item| deviation(&item, Dimension::LENGTH))
         }
     };
-    let target_frame = TargetFrame::read(&head, document, spec)?;
-    let layout = layout(root, stated, setup.flatten(), &target_frame, document);
-    let layout = found_places(root, layout, document);
-    let layout = distances(root, layout, document);
+    let target_frame = TargetFrame::read(&head, spec)?;
+    let layout = layout(root, stated, setup.flatten(), &target_frame);
+    let layout = found_places(root, layout);
+    let layout = distances(root, layout);
     let length = match &layout {
         Some(Layout::Instruments(all)) if stated.flatten().is_none() => Some(Some(all.uncertainty())),
         _ => stated,
     };
     let is_pose = matches!(layout, Some(Layout::Pose(..)));
     let angle = match head.get("angle_uncertainty") {
-        Some(item) => deviation(&item, document, Dimension::NONE),
+        Some(item) => deviation(&item, Dimension::NONE),
         None if is_pose => {
-            head.required("angle_uncertainty", document);
+            head.required("angle_uncertainty");
             None
         }
         None => Some(Some(1.0)),
@@ -118,22 +118,22 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     let uncertainty =
         |sigma: Option<f64>, is_angle| sigma.unwrap_or_else(|| initial_deviation(is_angle, spec.length));
     let base = match head.get("base") {
-        Some(item) => document.choice(&item, &BASES)?,
+        Some(item) => item.choice(&BASES)?,
         // No camera and no board stands in F_0 by design.
         None if layout.as_ref().is_some_and(is_camera) => Base::Unknown,
         None => Base::Known,
     };
-    let stations = stations(root, &head, document);
-    let placement = placement(root, &head, &target_frame, document, layout.as_ref());
-    let accept = accept(root, document);
-    let record = record(root, document);
+    let stations = stations(root, &head);
+    let placement = placement(root, &head, &target_frame, layout.as_ref());
+    let accept = accept(root);
+    let record = record(root);
     let base = match &layout {
         // The pose of `F_0` is absorbed by the fixtures of the instruments.
         Some(Layout::Instruments(all)) if !all.see_the_base() => Base::Exact,
         _ => base,
     };
     Some(Map {
-        title: head.optional_text("title", document),
+        title: head.optional_text("title"),
         uncertainty: Uncertainty { length: uncertainty(length?, false), angle: uncertainty(angle?, true) },
         is_estimated: [length?.is_none(), angle?.is_none()],
         base,
@@ -150,9 +150,9 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         direction: direction?,
         time: time?,
         resolution: resolution(spec),
-        path: document.path.clone(),
-        text: Arc::clone(&document.text),
-        files: document.files.clone(),
+        path: root.document.path.clone(),
+        text: Arc::clone(&root.document.text),
+        files: root.document.files.take(),
     })
 }
 
@@ -165,13 +165,12 @@ fn layout(
     stated: Option<Option<f64>>,
     setup: Option<Column>,
     frame: &TargetFrame,
-    document: &mut Document,
 ) -> Option<Layout> {
     let alone = |item: &Item<'_>| {
         keys::FORMS.contain(&item.key) && !["target", "instrument"].contains(&item.key.as_str())
     };
     if root.get("instrument").is_some() && !root.items().any(|item| alone(&item)) {
-        let all = instruments(root, stated, setup, frame, document)?;
+        let all = instruments(root, stated, setup, frame)?;
         return Some(Layout::Instruments(Box::new(all)));
     }
     let mut forms = root.items().filter(|item| keys::FORMS.contain(&item.key));
@@ -179,67 +178,65 @@ fn layout(
         let message = "a map needs exactly one description of the measurements";
         let help = "give one of `[point]`, `[difference]`, `[[target]]` (three or more), `[pose]` \
             and `[[instrument]]`";
-        return document.refuse(0..0, message, help);
+        return root.document.refuse(0..0, message, help);
     };
     if form.key == "target" {
-        return targets(&form, frame, document);
+        return targets(&form, frame);
     }
-    let mut section = document.section(&form)?;
-    section.name = format!("[{}]", form.key);
-    let factor = unit(&section, document, Dimension::LENGTH);
+    let section = form.named(format!("[{}]", form.key))?;
+    let factor = unit(&section, Dimension::LENGTH);
     match form.key.as_str() {
         "point" => {
-            section.check_keys(&[&keys::POINT], document);
-            Some(Layout::Point(columns(&section, "columns", document)?, factor?))
+            section.check_keys(&[&keys::POINT]);
+            Some(Layout::Point(columns(&section, "columns")?, factor?))
         }
         "difference" => {
-            section.check_keys(&[&keys::DIFFERENCE], document);
-            let target = columns(&section, "target", document);
-            Some(Layout::Difference(target?, columns(&section, "difference", document)?, factor?))
+            section.check_keys(&[&keys::DIFFERENCE]);
+            let target = columns(&section, "target");
+            Some(Layout::Difference(target?, columns(&section, "difference")?, factor?))
         }
         _ => {
-            section.check_keys(&[&keys::POSE, &keys::TURN], document);
-            let position = columns(&section, "position", document);
-            Some(Layout::Pose(position?, factor?, turn(&section, document)?))
+            section.check_keys(&[&keys::POSE, &keys::TURN]);
+            let position = columns(&section, "position");
+            Some(Layout::Pose(position?, factor?, turn(&section)?))
         }
     }
 }
 
-fn turn(section: &Section<'_>, document: &mut Document) -> Option<Turn> {
+fn turn(section: &Section<'_>) -> Option<Turn> {
     if section.get("matrix").is_some() {
-        return Some(Turn::Matrix(Box::new(columns(section, "matrix", document)?)));
+        return Some(Turn::Matrix(Box::new(columns(section, "matrix")?)));
     }
     if let Some(item) = section.get("quaternion") {
-        let section = document.table(&item, "quaternion", &[&keys::QUATERNION])?;
-        let order = section.required("order", document)?;
-        let order = document.choice(&order, &QUATERNION_ORDERS);
-        return Some(Turn::Quaternion(Box::new(columns(&section, "columns", document)?), order?));
+        let section = item.table("quaternion", &[&keys::QUATERNION])?;
+        let order = section.required("order")?.choice(&QUATERNION_ORDERS);
+        return Some(Turn::Quaternion(Box::new(columns(&section, "columns")?), order?));
     }
     if let Some(item) = section.get("rotation_vector") {
-        let section = document.table(&item, "rotation_vector", &[&keys::ROTATION_VECTOR])?;
-        let factor = unit(&section, document, Dimension::NONE);
-        return Some(Turn::RotationVector(Box::new(columns(&section, "columns", document)?), factor?));
+        let section = item.table("rotation_vector", &[&keys::ROTATION_VECTOR])?;
+        let factor = unit(&section, Dimension::NONE);
+        return Some(Turn::RotationVector(Box::new(columns(&section, "columns")?), factor?));
     }
     let Some(item) = section.get("euler") else {
         let help = "give `quaternion`, `matrix`, `euler` or `rotation_vector`";
-        return document.refuse(section.span.clone(), "this pose has no orientation", help);
+        return section.refuse("this pose has no orientation", help);
     };
-    let section = document.table(&item, "euler", &[&keys::EULER])?;
-    let order = section.required("order", document).and_then(|item| document.choice(&item, &EULER_ORDERS));
-    let factor = unit(&section, document, Dimension::NONE);
-    Some(Turn::Euler(Box::new(columns(&section, "columns", document)?), order?, factor?))
+    let section = item.table("euler", &[&keys::EULER])?;
+    let order = section.required("order").and_then(|item| item.choice(&EULER_ORDERS));
+    let factor = unit(&section, Dimension::NONE);
+    Some(Turn::Euler(Box::new(columns(&section, "columns")?), order?, factor?))
 }
 
-fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document) -> Option<Layout> {
-    let items = document.array(item, "an array of tables [[target]]")?;
+fn targets(item: &Item<'_>, frame: &TargetFrame) -> Option<Layout> {
+    let items = item.array("an array of tables [[target]]")?;
     let mut targets = Vec::new();
     for item in &items {
-        let section = document.table(item, "this [[target]]", &[&keys::TARGET])?;
-        section.optional_text("name", document);
-        let columns = columns(&section, "columns", document);
-        let factor = unit(&section, document, Dimension::LENGTH);
-        let position = section.required("position", document)?;
-        let position = target_position(&position, frame, document)?;
+        let section = item.table("this [[target]]", &[&keys::TARGET])?;
+        section.optional_text("name");
+        let columns = columns(&section, "columns");
+        let factor = unit(&section, Dimension::LENGTH);
+        let position = section.required("position")?;
+        let position = target_position(&position, frame)?;
         targets.push(Target { columns: columns?, factor: factor?, position });
     }
     let positions: Vec<[f64; 3]> = targets.iter().filter_map(|target| target.position).collect();
@@ -254,29 +251,29 @@ fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document) -> Opt
         Some(_) => return Some(Layout::Targets(targets)),
     };
     let help = "move one of them off the line, or measure a single one as `[point]`";
-    document.refuse(item.key_span.clone(), mistake, help)
+    item.refuse_key(mistake, help)
 }
 
 /// Reads `[accept]`: limits for rows that were not used in a fit.
-fn accept(root: &Section<'_>, document: &mut Document) -> Option<Acceptance> {
+fn accept(root: &Section<'_>) -> Option<Acceptance> {
     let Some(item) = root.get("accept") else { return Some(Acceptance::default()) };
-    let section = document.table(&item, "[accept]", &[&keys::ACCEPT])?;
+    let section = item.table("[accept]", &[&keys::ACCEPT])?;
     let figures = FIGURE_NAMES.into_iter().filter_map(|figure| Some((figure, section.get(figure)?)));
-    let limits = figures.map(|(figure, item)| Some((figure, document.quantity(&item, Dimension::LENGTH)?)));
+    let limits = figures.map(|(figure, item)| Some((figure, item.quantity(Dimension::LENGTH)?)));
     Some(Acceptance { limits: limits.collect::<Option<_>>()? })
 }
 
 /// Reads `[record]`: texts for a page that can be signed.
-fn record(root: &Section<'_>, document: &mut Document) -> Option<RunRecord> {
+fn record(root: &Section<'_>) -> Option<RunRecord> {
     let mut record = RunRecord::default();
     let Some(item) = root.get("record") else { return Some(record) };
-    let section = document.table(&item, "[record]", &[&keys::RECORD])?;
+    let section = item.table("[record]", &[&keys::RECORD])?;
     for key in keys::RECORD.names() {
-        let text = section.optional_text(key, document);
+        let text = section.optional_text(key);
         let wrong = check_date(&text).err().filter(|_| key == "date" && !text.is_empty());
         if let (Some(form), Some(item)) = (wrong, section.get(key)) {
             let message = format!("`{}` is no date", text.escape_debug());
-            document.mistake(Diagnostic::new(item.span(), message).help(form));
+            root.document.mistake(Diagnostic::new(item.span(), message).help(form));
         }
         record.state(key, text);
     }

@@ -1,7 +1,7 @@
 //! Reader of an instrument of the kind `camera`.
 
 use abbe::identify::{CAMERA, Camera, INTRINSICS, Observable, register};
-use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::document::{Item, Section};
 use abbe_spec::expr::Dimension;
 
 use super::choices::{INTRINSIC_CHOICES, MOUNTS};
@@ -21,19 +21,17 @@ pub(super) fn camera(
     name: String,
     setup: Option<f64>,
     all: &mut Instruments,
-    document: &mut Document,
 ) -> Option<Instrument> {
-    let mount = section.required("mount", document).and_then(|item| document.choice(&item, &MOUNTS));
-    let image = pixels(section, "image", document);
-    let focal = pixels(section, "focal", document);
-    let center = center(section, image, document);
-    let distortion = distortion(section, document);
-    let is_known =
-        section.get("intrinsics").map_or(Some(true), |item| document.choice(&item, &INTRINSIC_CHOICES));
-    let corners = corners(section, document);
-    let prefixes = prefixes(section, document);
-    let uncertainty = section.required("uncertainty", document)?;
-    let uncertainty = deviation(&uncertainty, document, Dimension::NONE)?;
+    let mount = section.required("mount").and_then(|item| item.choice(&MOUNTS));
+    let image = pixels(section, "image");
+    let focal = pixels(section, "focal");
+    let center = center(section, image);
+    let distortion = distortion(section);
+    let is_known = section.get("intrinsics").map_or(Some(true), |item| item.choice(&INTRINSIC_CHOICES));
+    let corners = corners(section);
+    let prefixes = prefixes(section);
+    let uncertainty = section.required("uncertainty")?;
+    let uncertainty = deviation(&uncertainty, Dimension::NONE)?;
     let (corners, prefixes, [fx, fy], [cx, cy]) = (corners?, prefixes?, focal?, center?);
     let mut intrinsics = [0.0; INTRINSICS];
     intrinsics[..4].copy_from_slice(&[fx, fy, cx, cy]);
@@ -73,9 +71,9 @@ pub(super) fn camera(
 }
 
 /// Reads two positive numbers of pixels.
-fn pixels(section: &Section<'_>, key: &str, document: &mut Document) -> Option<[f64; 2]> {
-    let item = section.required(key, document)?;
-    let [x, y] = document.quantities(&item, "two numbers of pixels", Dimension::NONE)?;
+fn pixels(section: &Section<'_>, key: &str) -> Option<[f64; 2]> {
+    let item = section.required(key)?;
+    let [x, y] = item.quantities("two numbers of pixels", Dimension::NONE)?;
     if x.min(y) >= 1.0 {
         return Some([x, y]);
     }
@@ -85,64 +83,60 @@ fn pixels(section: &Section<'_>, key: &str, document: &mut Document) -> Option<[
         }
         _ => "write the width and the height of the image in pixels",
     };
-    document.refuse(item.span(), format!("`{key}` must be at least one pixel"), help)
+    item.refuse(format!("`{key}` must be at least one pixel"), help)
 }
 
 /// Reads the principal point, which must be in the image; its middle if it is not stated.
 ///
 /// The center of the first pixel is at (0, 0), as for OpenCV.
-fn center(section: &Section<'_>, image: Option<[f64; 2]>, document: &mut Document) -> Option<[f64; 2]> {
+fn center(section: &Section<'_>, image: Option<[f64; 2]>) -> Option<[f64; 2]> {
     let Some(item) = section.get("center") else {
         return image.map(|image| image.map(|size| (size - 1.0) / 2.0));
     };
-    let [x, y] = document.quantities(&item, "two numbers of pixels", Dimension::NONE)?;
+    let [x, y] = item.quantities("two numbers of pixels", Dimension::NONE)?;
     let (center, image) = ([x, y], image?);
     if (0..2).all(|k| (0.0..image[k]).contains(&center[k])) {
         return Some(center);
     }
     let help = "write cx and cy of the camera matrix, and the size of the image it was calibrated with";
-    document.refuse(item.span(), "the principal point is outside the image", help)
+    item.refuse("the principal point is outside the image", help)
 }
 
 /// Reads the distortion; none if it is not stated.
-fn distortion(section: &Section<'_>, document: &mut Document) -> Option<[f64; INTRINSICS - 4]> {
+fn distortion(section: &Section<'_>) -> Option<[f64; INTRINSICS - 4]> {
     let Some(item) = section.get("distortion") else { return Some([0.0; INTRINSICS - 4]) };
-    document.quantities(&item, "five numbers: k1 k2 p1 p2 k3", Dimension::NONE)
+    item.quantities("five numbers: k1 k2 p1 p2 k3", Dimension::NONE)
 }
 
 /// Reads the beginnings of the headings of `u` and `v`, which must differ.
-fn prefixes(section: &Section<'_>, document: &mut Document) -> Option<[Column; 2]> {
-    let item = section.required("pixels", document)?;
-    let two: [Item<'_>; 2] = document.entries(&item, "the beginnings of two headings")?;
-    let [u, v] = two.map(|item| column(&item, document));
+fn prefixes(section: &Section<'_>) -> Option<[Column; 2]> {
+    let item = section.required("pixels")?;
+    let two: [Item<'_>; 2] = item.entries("the beginnings of two headings")?;
+    let [u, v] = two.map(|item| column(&item));
     let (u, v) = (u?, v?);
     if u.name != v.name {
         return Some([u, v]);
     }
     let help = "write `pixels = [\"u\", \"v\"]` for the columns u1, v1, u2, v2 …";
-    document.refuse(item.span(), "both pixels have the same headings", help)
+    item.refuse("both pixels have the same headings", help)
 }
 
 /// Reads the corners of the board: a grid, row by row, or a list.
-fn corners(section: &Section<'_>, document: &mut Document) -> Option<Vec<[f64; 3]>> {
+fn corners(section: &Section<'_>) -> Option<Vec<[f64; 3]>> {
     match (section.get("board"), section.get("corners")) {
         (Some(board), None) => {
             let [columns, rows] =
-                document.quantities(&board, "two numbers: corners in a row, and rows", Dimension::NONE)?;
+                board.quantities("two numbers: corners in a row, and rows", Dimension::NONE)?;
             let is_count = |count: f64| count.fract() == 0.0 && (2.0..=100.0).contains(&count);
             if !is_count(columns) || !is_count(rows) {
                 let help = "count the inner corners, as for `cv2.findChessboardCorners`";
-                return document.refuse(
-                    board.span(),
-                    "`board` must be two whole numbers from 2 to 100",
-                    help,
-                );
+                return board.refuse("`board` must be two whole numbers from 2 to 100", help);
             }
-            let item = section.required("pitch", document)?;
-            let pitch = document.quantity(&item, Dimension::LENGTH)?;
+            let item = section.required("pitch")?;
+            let pitch = item.quantity(Dimension::LENGTH)?;
             if pitch < 1e-9 {
                 let help = "write the side of a square of the chessboard";
-                return document.refuse(item.span(), "`pitch` must be positive", help);
+                return item.refuse("`pitch` must be positive", help);
             }
             let (columns, rows) = (columns as usize, rows as usize);
             let at = |i: usize| [(i % columns) as f64 * pitch, (i / columns) as f64 * pitch, 0.0];
@@ -150,14 +144,13 @@ fn corners(section: &Section<'_>, document: &mut Document) -> Option<Vec<[f64; 3
         }
         (None, Some(list)) => {
             let mut corners = Vec::new();
-            for item in document.array(&list, "corners, each two lengths on the board")? {
-                let [x, y] =
-                    document.quantities(&item, "two lengths on the board: x, y", Dimension::LENGTH)?;
+            for item in list.array("corners, each two lengths on the board")? {
+                let [x, y] = item.quantities("two lengths on the board: x, y", Dimension::LENGTH)?;
                 corners.push([x, y, 0.0]);
             }
             if let Some(pitch) = section.get("pitch") {
                 let message = "`pitch` belongs to `board`, and this board lists its `corners`";
-                return document.refuse(pitch.key_span.clone(), message, "remove it");
+                return pitch.refuse_key(message, "remove it");
             }
             let (message, help) = match corners.len() {
                 0..4 => ("a camera needs at least four corners", "a tag has four"),
@@ -167,13 +160,13 @@ fn corners(section: &Section<'_>, document: &mut Document) -> Option<Vec<[f64; 3
                 ),
                 _ => return Some(corners),
             };
-            document.refuse(list.span(), message, help)
+            list.refuse(message, help)
         }
         _ => {
             let message = "a camera needs either `board` with `pitch`, or `corners`";
             let help =
                 "write `board = [9, 6]` and `pitch = \"25 mm\"` for a chessboard with 9 × 6 inner corners";
-            document.refuse(section.span.clone(), message, help)
+            section.refuse(message, help)
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Reader of `[joints]` and `[inputs]`.
 
 use abbe::VariableKind;
-use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::document::{Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::{find_name, read_name};
 use abbe_spec::{Input, Spec};
@@ -11,11 +11,11 @@ use super::from_rows::FromRows;
 use super::keys;
 use super::read_values::{column, unit};
 
-pub(super) fn joints(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<Channel>> {
-    let section = root.required("joints", document).and_then(|item| document.section(&item))?;
+pub(super) fn joints(root: &Section<'_>, spec: &Spec) -> Option<Vec<Channel>> {
+    let section = root.required("joints").and_then(|item| item.section())?;
     let names: Vec<&str> = spec.variables.iter().map(|variable| variable.name.as_str()).collect();
     for item in section.items() {
-        find_name(document, item.key_span.clone(), &item.key, &names, "variable");
+        find_name(root.document, item.key_span.clone(), &item.key, &names, "variable");
     }
     let channels = spec.variables.iter().map(|variable| {
         let dimension = match variable.kind {
@@ -29,25 +29,25 @@ pub(super) fn joints(root: &Section<'_>, document: &mut Document, spec: &Spec) -
                 "add `{name} = {{ column = \"…\", unit = \"…\" }}`, or `{name} = {{ value = 0 }}` \
                  if it is constant"
             );
-            return document.refuse(section.span.clone(), message, help);
+            return root.document.refuse(section.span.clone(), message, help);
         };
-        channel(&item, document, dimension)
+        channel(&item, dimension)
     });
     let channels: Vec<Option<Channel>> = channels.collect();
     channels.into_iter().collect()
 }
 
-pub(super) fn inputs(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<Channel>> {
-    let section = root.get("inputs").map_or(Some(None), |item| document.section(&item).map(Some))?;
+pub(super) fn inputs(root: &Section<'_>, spec: &Spec) -> Option<Vec<Channel>> {
+    let section = root.get("inputs").map_or(Some(None), |item| item.section().map(Some))?;
     let names: Vec<&str> = spec.inputs.iter().map(|input| input.name.as_str()).collect();
     for item in section.iter().flat_map(Section::items) {
-        find_name(document, item.key_span.clone(), &item.key, &names, "input");
+        find_name(root.document, item.key_span.clone(), &item.key, &names, "input");
     }
     let channels =
         spec.inputs.iter().map(|input| match section.as_ref().and_then(|section| section.get(&input.name)) {
-            Some(item) => match from_rows(&item, document) {
-                Some(section) => read_from_rows(&section, document, spec, input).map(Channel::FromRows),
-                None => channel(&item, document, input.dimension),
+            Some(item) => match from_rows(&item) {
+                Some(section) => read_from_rows(&section, spec, input).map(Channel::FromRows),
+                None => channel(&item, input.dimension),
             },
             None => Some(Channel::Fixed(input.value)),
         });
@@ -56,24 +56,19 @@ pub(super) fn inputs(root: &Section<'_>, document: &mut Document, spec: &Spec) -
 }
 
 /// Returns the table of an input that is computed from the rows, if it is one.
-fn from_rows<'d>(item: &Item<'d>, document: &mut Document) -> Option<Section<'d>> {
-    let section = item.is_table().then(|| document.section(item)).flatten()?;
+fn from_rows<'d>(item: &Item<'d>) -> Option<Section<'d>> {
+    let section = item.is_table().then(|| item.section()).flatten()?;
     keys::FROM_ROWS.names().any(|key| section.get(key).is_some()).then_some(section)
 }
 
 /// Reads `{ approach = "q1" }` or `{ gravity_moment = "q2", frame = "wrist 1" }`.
-fn read_from_rows(
-    section: &Section<'_>,
-    document: &mut Document,
-    spec: &Spec,
-    input: &Input,
-) -> Option<FromRows> {
+fn read_from_rows(section: &Section<'_>, spec: &Spec, input: &Input) -> Option<FromRows> {
     let mut section = section.clone();
     section.name = format!("`{}`", input.name);
-    section.check_keys(&[&keys::FROM_ROWS], document);
-    let variable = |item: &Item<'_>, document: &mut Document| {
+    section.check_keys(&[&keys::FROM_ROWS]);
+    let variable = |item: &Item<'_>| {
         let names = spec.variables.iter().map(|variable| variable.name.as_str());
-        read_name(document, item, names, "variable")
+        read_name(item, names, "variable")
     };
     let (approach, moment, frame) =
         (section.get("approach"), section.get("gravity_moment"), section.get("frame"));
@@ -82,21 +77,21 @@ fn read_from_rows(
         (Some(_), None, None) | (None, Some(_), _) if !is_number => {
             let message = format!("`{}` is {}; it must be -1, 0 or 1", input.name, input.dimension);
             let help = "this needs an input that is a pure number: give it a `column` or a `value`";
-            document.refuse(section.span.clone(), message, help)
+            section.refuse(message, help)
         }
-        (Some(item), None, None) => variable(&item, document).map(FromRows::Approach),
+        (Some(item), None, None) => variable(&item).map(FromRows::Approach),
         (None, Some(item), frame) => {
-            let joint = variable(&item, document)?;
+            let joint = variable(&item)?;
             if spec.variables[joint].kind != VariableKind::Revolute {
                 let message =
                     format!("`{}` is not revolute, so no moment acts about it", spec.variables[joint].name);
-                return document.refuse(item.span(), message, "name a revolute joint");
+                return item.refuse(message, "name a revolute joint");
             }
             let Some(frame) = frame else {
                 return Some(FromRows::GravityMoment { variable: joint, at: spec.frames.len() });
             };
             let names = spec.frames.iter().map(|frame| frame.name.as_str());
-            let at = read_name(document, &frame, names, "frame")?;
+            let at = read_name(&frame, names, "frame")?;
             if at < spec.variables[joint].frame {
                 let message = format!(
                     "`{}` does not move the frame `{}`",
@@ -104,7 +99,7 @@ fn read_from_rows(
                 );
                 let help = "name the frame of the joint or a later one, or omit `frame` for the \
                     tool point";
-                return document.refuse(frame.span(), message, help);
+                return frame.refuse(message, help);
             }
             Some(FromRows::GravityMoment { variable: joint, at })
         }
@@ -112,29 +107,29 @@ fn read_from_rows(
             let help =
                 "write `{ approach = \"JOINT\" }` or `{ gravity_moment = \"JOINT\", frame = \"FRAME\" }`";
             let message = format!("`{}` is not defined by a valid rule", input.name);
-            document.refuse(section.span.clone(), message, help)
+            section.refuse(message, help)
         }
     }
 }
 
 /// Reads `{ column = "…", unit = "…", sign = -1, zero = "…" }` or `{ value = … }`.
-fn channel(item: &Item<'_>, document: &mut Document, dimension: Dimension) -> Option<Channel> {
-    let section = document.table(item, format!("`{}`", item.key), &[&keys::CHANNEL])?;
+fn channel(item: &Item<'_>, dimension: Dimension) -> Option<Channel> {
+    let section = item.table(format!("`{}`", item.key), &[&keys::CHANNEL])?;
     if let Some(value) = section.get("value") {
-        return document.quantity(&value, dimension).map(Channel::Fixed);
+        return value.quantity(dimension).map(Channel::Fixed);
     }
-    let column = section.required("column", document).and_then(|item| column(&item, document));
-    let factor = unit(&section, document, dimension);
+    let column = section.required("column").and_then(|item| column(&item));
+    let factor = unit(&section, dimension);
     let sign = match section.get("sign") {
-        Some(item) => match document.quantity(&item, Dimension::NONE)? {
+        Some(item) => match item.quantity(Dimension::NONE)? {
             sign if sign.abs() == 1.0 => sign,
             _ => {
                 let help = "include any other factor in `unit`";
-                return document.refuse(item.span(), "a sign must be 1 or -1", help);
+                return item.refuse("a sign must be 1 or -1", help);
             }
         },
         None => 1.0,
     };
-    let zero = section.get("zero").map_or(Some(0.0), |item| document.quantity(&item, dimension))?;
+    let zero = section.get("zero").map_or(Some(0.0), |item| item.quantity(dimension))?;
     Some(Channel::Column(column?, Scale { one: factor? * sign, zero }))
 }

@@ -4,7 +4,7 @@
 
 use abbe::analysis::sampling::norm;
 use abbe::identify::{CAMERA, Fixture, FixtureGeometry, INSTRUMENTS, InstrumentKind, Observable};
-use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::document::{Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::read_name;
 
@@ -28,15 +28,14 @@ pub(super) fn instruments(
     stated: Option<Option<f64>>,
     setup: Option<Column>,
     frame: &TargetFrame,
-    document: &mut Document,
 ) -> Option<Instruments> {
     let targets = root
         .get("target")
         .map_or(Some(vec![Named { name: String::new(), position: Some([0.0; 3]) }]), |item| {
-            targets(&item, frame, document)
+            targets(&item, frame)
         })?;
     let items = root.get("instrument")?;
-    let items = document.array(&items, "an array of tables [[instrument]]")?;
+    let items = items.array("an array of tables [[instrument]]")?;
     let mut all = Instruments {
         targets: targets.iter().map(|t| t.position).collect(),
         setup,
@@ -44,12 +43,11 @@ pub(super) fn instruments(
     };
     let mut complete = true;
     for item in &items {
-        let mut section = document.section(item)?;
-        section.name = "this [[instrument]]".to_owned();
-        match instrument(&section, &targets, stated, &mut all, document) {
+        let section = item.named("this [[instrument]]")?;
+        match instrument(&section, &targets, stated, &mut all) {
             Some(one) if all.list.iter().any(|other| other.name == one.name) => {
                 let message = format!("duplicate instrument `{}`", one.name.escape_debug());
-                return document.refuse(item.span(), message, "give each its own `name`");
+                return item.refuse(message, "give each its own `name`");
             }
             Some(instrument) => all.list.push(instrument),
             None => complete = false,
@@ -58,18 +56,17 @@ pub(super) fn instruments(
     complete.then_some(all)
 }
 
-fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document) -> Option<Vec<Named>> {
-    let items = document.array(item, "an array of tables [[target]]")?;
-    let one = |item: &Item<'_>, document: &mut Document| {
-        let mut section = document.section(item)?;
-        section.name = "this [[target]]".to_owned();
-        section.check_names(&["name", "position"], document);
-        let name = section.required("name", document).and_then(|item| document.string(&item));
-        let item = section.required("position", document)?;
-        let position = target_position(&item, frame, document)?;
+fn targets(item: &Item<'_>, frame: &TargetFrame) -> Option<Vec<Named>> {
+    let items = item.array("an array of tables [[target]]")?;
+    let one = |item: &Item<'_>| {
+        let section = item.named("this [[target]]")?;
+        section.check_names(&["name", "position"]);
+        let name = section.required("name").and_then(|item| item.string());
+        let item = section.required("position")?;
+        let position = target_position(&item, frame)?;
         Some(Named { name: name?, position })
     };
-    items.iter().map(|item| one(item, document)).collect()
+    items.iter().map(|item| one(item)).collect()
 }
 
 fn instrument(
@@ -77,51 +74,44 @@ fn instrument(
     targets: &[Named],
     stated: Option<Option<f64>>,
     all: &mut Instruments,
-    document: &mut Document,
 ) -> Option<Instrument> {
-    let kind = section.required("kind", document)?;
-    let kind = document.choice(&kind, &INSTRUMENTS.map(|kind| (kind.name, kind)))?;
+    let kind = section.required("kind")?;
+    let kind = kind.choice(&INSTRUMENTS.map(|kind| (kind.name, kind)))?;
     let known = keys::ANY_INSTRUMENT.names().chain(kind.keys.iter().copied());
     let known: Vec<&str> = known.chain(keys::EVERY_INSTRUMENT.names()).collect();
-    section.check_names(&known, document);
-    let name = section.required("name", document).and_then(|item| document.string(&item));
+    section.check_names(&known);
+    let name = section.required("name").and_then(|item| item.string());
     if kind.name == CAMERA.name {
-        let setup = setup(section, all, document)?;
-        return camera(section, name?, setup, all, document);
+        let setup = setup(section, all)?;
+        return camera(section, name?, setup, all);
     }
     if all.camera.is_some() {
         let help = "describe the other instruments in a map of their own";
-        return document.refuse(
-            section.span.clone(),
-            "a camera must be the only instrument of its map",
-            help,
-        );
+        return section.refuse("a camera must be the only instrument of its map", help);
     }
     let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
     let columns = match kind.has("columns") {
-        true => columns::<3>(section, "columns", document).map(Vec::from),
+        true => columns::<3>(section, "columns").map(Vec::from),
         false if kind.is_touched() => Some(Vec::new()),
-        false => {
-            section.required("column", document).and_then(|item| column(&item, document)).map(|c| vec![c])
-        }
+        false => section.required("column").and_then(|item| column(&item)).map(|c| vec![c]),
     };
-    let factor = if kind.is_touched() { Some(1.0) } else { unit(section, document, dimension) };
+    let factor = if kind.is_touched() { Some(1.0) } else { unit(section, dimension) };
     let uncertainty = match section.get("uncertainty") {
-        Some(item) => deviation(&item, document, dimension),
-        None if kind.is_angle || stated.is_none() => section.required("uncertainty", document).map(|_| None),
+        Some(item) => deviation(&item, dimension),
+        None if kind.is_angle || stated.is_none() => section.required("uncertainty").map(|_| None),
         None => stated,
     };
-    let (zero, zero_known) = zero(section, kind, document)?;
-    let targets = targets_of(section, kind, targets, document)?;
+    let (zero, zero_known) = zero(section, kind)?;
+    let targets = targets_of(section, kind, targets)?;
     if kind.finds_position && section.get("at").is_none() {
         all.unplaced.push(all.list.len());
     }
     let at = match all.unplaced.contains(&all.list.len()) {
         true => [0.0; 3],
-        false => own_vector(section, kind, "at", document, Dimension::LENGTH)?,
+        false => own_vector(section, kind, "at", Dimension::LENGTH)?,
     };
-    let direction = own_direction(section, kind, "direction", document)?;
-    let mirror = unit_vector(own_direction(section, kind, "mirror", document)?);
+    let direction = own_direction(section, kind, "direction")?;
+    let mirror = unit_vector(own_direction(section, kind, "mirror")?);
     let observable = Observable {
         name: name.clone().unwrap_or_default(),
         kind,
@@ -134,17 +124,17 @@ fn instrument(
         corner: [0.0; 3],
         zero,
         zero_known,
-        uncertainty: uncertainty?.unwrap_or_else(|| initial_deviation(kind.is_angle, document.length)),
+        uncertainty: uncertainty?
+            .unwrap_or_else(|| initial_deviation(kind.is_angle, section.document.length)),
     };
-    let setup = setup(section, all, document)?;
-    let unit = section.get("unit").and_then(|item| document.string(&item));
+    let setup = setup(section, all)?;
+    let unit = section.get("unit").and_then(|item| item.string());
     let range = match section.get("range") {
         Some(item) => {
-            let [lower, upper] =
-                document.quantities(&item, "the smallest and the largest reading", dimension)?;
+            let [lower, upper] = item.quantities("the smallest and the largest reading", dimension)?;
             if lower >= upper {
                 let help = "write the smallest reading first";
-                return document.refuse(item.span(), "the ends of `range` are reversed", help);
+                return item.refuse("the ends of `range` are reversed", help);
             }
             Some([lower, upper])
         }
@@ -167,7 +157,7 @@ fn instrument(
         kind,
         columns: columns?,
         factor: factor?,
-        unit: unit.unwrap_or_else(|| document.length.symbol().to_owned()),
+        unit: unit.unwrap_or_else(|| section.document.length.symbol().to_owned()),
         setup,
         range,
         uncertainty: uncertainty?,
@@ -176,55 +166,48 @@ fn instrument(
 }
 
 /// Reads the indices of the targets of an instrument; the first target if it names none.
-fn targets_of(
-    section: &Section<'_>,
-    kind: &InstrumentKind,
-    targets: &[Named],
-    document: &mut Document,
-) -> Option<[usize; 2]> {
-    let find = |item: &Item<'_>, document: &mut Document| {
-        read_name(document, item, targets.iter().map(|target| target.name.as_str()), "target")
-    };
+fn targets_of(section: &Section<'_>, kind: &InstrumentKind, targets: &[Named]) -> Option<[usize; 2]> {
+    let find = |item: &Item<'_>| read_name(item, targets.iter().map(|target| target.name.as_str()), "target");
     if kind.has("targets") {
-        let item = section.required("targets", document)?;
-        let both: [Item<'_>; 2] = document.entries(&item, "the names of two targets")?;
-        let [first, second] = both.map(|item| find(&item, document));
+        let item = section.required("targets")?;
+        let both: [Item<'_>; 2] = item.entries("the names of two targets")?;
+        let [first, second] = both.map(|item| find(&item));
         return Some([first?, second?]);
     }
     match section.get("target") {
-        Some(item) => find(&item, document).map(|target| [target; 2]),
+        Some(item) => find(&item).map(|target| [target; 2]),
         None => Some([0; 2]),
     }
 }
 
-fn setup(section: &Section<'_>, all: &Instruments, document: &mut Document) -> Option<Option<f64>> {
+fn setup(section: &Section<'_>, all: &Instruments) -> Option<Option<f64>> {
     let Some(item) = section.get("setup") else { return Some(None) };
     if all.setup.is_none() {
         let help = "name it: `setup = \"COLUMN\"` in [data]";
-        return document.refuse(item.span(), "the map does not name the column of the setup", help);
+        return item.refuse("the map does not name the column of the setup", help);
     }
-    document.quantity(&item, Dimension::NONE).map(Some)
+    item.quantity(Dimension::NONE).map(Some)
 }
 
 /// Reads the zero of an instrument, and whether it is known: `zero`, or minus `radius`.
-fn zero(section: &Section<'_>, kind: &InstrumentKind, document: &mut Document) -> Option<(f64, bool)> {
+fn zero(section: &Section<'_>, kind: &InstrumentKind) -> Option<(f64, bool)> {
     let (item, sign) = match kind.has("radius") {
-        true => (Some(section.required("radius", document)?), -1.0),
+        true => (Some(section.required("radius")?), -1.0),
         false => (section.get("zero"), 1.0),
     };
     let nominal = section.get("nominal_radius");
     match (item, nominal) {
         (None, _) => Some((0.0, !kind.has_unknown_zero)),
-        (Some(item), nominal) if is_unknown(&item, document) => {
-            let about = nominal.map(|item| document.quantity(&item, Dimension::LENGTH));
+        (Some(item), nominal) if is_unknown(&item) => {
+            let about = nominal.map(|item| item.quantity(Dimension::LENGTH));
             Some((about.map_or(Some(0.0), |about| about.map(|about| sign * about))?, false))
         }
         (Some(_), Some(nominal)) => {
             let message = "`nominal_radius` is the approximate value of an unknown radius, but this radius \
                  is known";
-            document.refuse(nominal.key_span.clone(), message, "remove it, or write `radius = \"unknown\"`")
+            nominal.refuse_key(message, "remove it, or write `radius = \"unknown\"`")
         }
-        (Some(item), None) => document.quantity(&item, Dimension::LENGTH).map(|value| (sign * value, true)),
+        (Some(item), None) => item.quantity(Dimension::LENGTH).map(|value| (sign * value, true)),
     }
 }
 
@@ -233,46 +216,35 @@ fn own_vector(
     section: &Section<'_>,
     kind: &InstrumentKind,
     key: &str,
-    document: &mut Document,
     dimension: Dimension,
 ) -> Option<[f64; 3]> {
     if !kind.has(key) {
         return Some([0.0; 3]);
     }
-    let item = section.required(key, document)?;
-    vector(&item, document, dimension)
+    let item = section.required(key)?;
+    vector(&item, dimension)
 }
 
 /// Reads the position of a target in the frame of the tool; none if it is unknown.
-pub(super) fn target_position(
-    item: &Item<'_>,
-    frame: &TargetFrame,
-    document: &mut Document,
-) -> Option<Option<[f64; 3]>> {
-    if is_unknown(item, document) {
+pub(super) fn target_position(item: &Item<'_>, frame: &TargetFrame) -> Option<Option<[f64; 3]>> {
+    if is_unknown(item) {
         return Some(None);
     }
-    let position = document.quantities(item, "three lengths in the frame of the tool", Dimension::LENGTH)?;
+    let position = item.quantities("three lengths in the frame of the tool", Dimension::LENGTH)?;
     Some(Some(frame.to_tool(position)))
 }
 
-fn vector(item: &Item<'_>, document: &mut Document, dimension: Dimension) -> Option<[f64; 3]> {
+fn vector(item: &Item<'_>, dimension: Dimension) -> Option<[f64; 3]> {
     let what =
         if dimension == Dimension::LENGTH { "three lengths: x, y, z" } else { "three numbers: x, y, z" };
-    document.quantities(item, what, dimension)
+    item.quantities(what, dimension)
 }
 
 /// Reads a direction, which must not be zero; zero if instruments of this kind have no such key.
-fn own_direction(
-    section: &Section<'_>,
-    kind: &InstrumentKind,
-    key: &str,
-    document: &mut Document,
-) -> Option<[f64; 3]> {
-    let along = own_vector(section, kind, key, document, Dimension::NONE)?;
+fn own_direction(section: &Section<'_>, kind: &InstrumentKind, key: &str) -> Option<[f64; 3]> {
+    let along = own_vector(section, kind, key, Dimension::NONE)?;
     match section.get(key) {
-        Some(item) if kind.has(key) && norm(along) == 0.0 => document.refuse(
-            item.span(),
+        Some(item) if kind.has(key) && norm(along) == 0.0 => item.refuse(
             format!("the direction `{key}` must not be zero"),
             "write a vector such as [0, 0, 1] for z",
         ),

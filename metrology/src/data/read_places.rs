@@ -2,7 +2,7 @@
 
 use abbe::Pose;
 use abbe::identify::{FixtureGeometry, INTRINSICS};
-use abbe_spec::document::{Document, Section};
+use abbe_spec::document::Section;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::read_name;
 
@@ -16,29 +16,25 @@ use super::target_frame::TargetFrame;
 use abbe::analysis::sampling::norm;
 
 /// Reads the column of stations in `[data]`, and the `[[station]]` tables.
-pub(super) fn stations(root: &Section<'_>, head: &Section<'_>, document: &mut Document) -> Option<Stations> {
-    let column = head.get("station").map_or(Some(None), |item| column(&item, document).map(Some))?;
+pub(super) fn stations(root: &Section<'_>, head: &Section<'_>) -> Option<Stations> {
+    let column = head.get("station").map_or(Some(None), |item| column(&item).map(Some))?;
     let mut stated: Vec<StatedStation> = Vec::new();
     let Some(list) = root.get("station") else { return Some(Stations { column, stated }) };
-    for item in document.array(&list, "an array of tables [[station]]")? {
-        let section = document.table(&item, "this [[station]]", &[&keys::STATION])?;
-        let name = section.optional_text("name", document);
-        let pose = place(&section, document)?;
-        covariance(&section, document, 6)?;
+    for item in list.array("an array of tables [[station]]")? {
+        let section = item.table("this [[station]]", &[&keys::STATION])?;
+        let name = section.optional_text("name");
+        let pose = place(&section)?;
+        covariance(&section, 6)?;
         if stated.iter().any(|station| station.name == name) {
             let help = "give each its own `name`";
-            return document.refuse(
-                item.span(),
-                format!("duplicate station `{}`", name.escape_debug()),
-                help,
-            );
+            return item.refuse(format!("duplicate station `{}`", name.escape_debug()), help);
         }
         stated.push(StatedStation { name, pose });
     }
     if column.is_none() && stated.len() > 1 {
         let help = "name the column of the station in [data]: `station = \"…\"`";
         let message = "several stations, but no column with the station of each row";
-        return document.refuse(list.key_span.clone(), message, help);
+        return list.refuse_key(message, help);
     }
     Some(Stations { column, stated })
 }
@@ -48,11 +44,9 @@ pub(super) fn placement(
     root: &Section<'_>,
     head: &Section<'_>,
     frame: &TargetFrame,
-    document: &mut Document,
     layout: Option<&Layout>,
 ) -> Option<Placement> {
-    let placed =
-        head.get("placement").map_or(Some(Placed::Near), |item| document.choice(&item, &PLACEMENTS))?;
+    let placed = head.get("placement").map_or(Some(Placed::Near), |item| item.choice(&PLACEMENTS))?;
     let is_per_station = placed == Placed::PerStation;
     if let Some(item) = head.get("placement").filter(|_| is_per_station) {
         let (message, help) = match (layout, head.get("station")) {
@@ -67,13 +61,13 @@ pub(super) fn placement(
             _ => ("", ""),
         };
         if !message.is_empty() {
-            return document.refuse(item.span(), message, help);
+            return item.refuse(message, help);
         }
     }
     let is_exact = placed == Placed::Exactly && root.get("placement").is_none();
     if let Some(item) = head.get("placement").filter(|_| is_exact && layout.is_some_and(has_unknown_target)) {
         let message = "the placement is exact, but the position of a target is unknown";
-        return document.refuse(item.span(), message, "state its position, or remove `placement`");
+        return item.refuse(message, "state its position, or remove `placement`");
     }
     let mut all = Placement { exact: placed == Placed::Exactly, is_per_station, stated: Vec::new() };
     let Some(item) = root.get("placement") else { return Some(all) };
@@ -88,22 +82,20 @@ pub(super) fn placement(
                 "write `placement = \"per station\"` in [data], or one table [placement]",
             ),
         };
-        return document.refuse(item.key_span.clone(), message, help);
+        return item.refuse_key(message, help);
     }
     if !is_per_station {
-        let section = document.table(&item, "[placement]", &[&keys::PLACEMENT])?;
-        all.stated.push(stated_placement(&section, frame, document, layout)?);
+        let section = item.table("[placement]", &[&keys::PLACEMENT])?;
+        all.stated.push(stated_placement(&section, frame, layout)?);
         return Some(all);
     }
-    for item in document.array(&item, "an array of tables [[placement]]")? {
-        let section =
-            document.table(&item, "this [[placement]]", &[&keys::PLACEMENT, &keys::PLACEMENT_OF_STATION])?;
-        let station = section.required("station", document)?;
-        let station = document.string(&station)?;
-        let stated = stated_placement(&section, frame, document, layout)?;
+    for item in item.array("an array of tables [[placement]]")? {
+        let section = item.table("this [[placement]]", &[&keys::PLACEMENT, &keys::PLACEMENT_OF_STATION])?;
+        let station = section.required("station")?.string()?;
+        let stated = stated_placement(&section, frame, layout)?;
         if all.stated.iter().any(|other| other.station == station) {
             let message = format!("duplicate placement at the station `{}`", station.escape_debug());
-            return document.refuse(item.span(), message, "give each station one placement");
+            return item.refuse(message, "give each station one placement");
         }
         all.stated.push(StatedPlacement { station, ..stated });
     }
@@ -122,12 +114,11 @@ fn has_unknown_target(layout: &Layout) -> bool {
 fn stated_placement(
     section: &Section<'_>,
     frame: &TargetFrame,
-    document: &mut Document,
     layout: Option<&Layout>,
 ) -> Option<StatedPlacement> {
     if layout.is_some_and(Layout::is_pose) {
-        let mounting = Some(place(section, document)?);
-        covariance(section, document, 6)?;
+        let mounting = Some(place(section)?);
+        covariance(section, 6)?;
         return Some(StatedPlacement { mounting, ..StatedPlacement::default() });
     }
     let count = match layout {
@@ -135,37 +126,32 @@ fn stated_placement(
         Some(Layout::Instruments(all)) => all.targets.len(),
         _ => 1,
     };
-    let list = section.required("targets", document)?;
+    let list = section.required("targets")?;
     let mut targets = Vec::new();
-    for item in document.array(&list, "positions, each three lengths in the frame of the tool")? {
-        let position =
-            document.quantities(&item, "three lengths in the frame of the tool", Dimension::LENGTH)?;
+    for item in list.array("positions, each three lengths in the frame of the tool")? {
+        let position = item.quantities("three lengths in the frame of the tool", Dimension::LENGTH)?;
         targets.push(frame.to_tool(position));
     }
     if targets.len() != count {
         let message = format!("the map has {count} targets, but positions of {}", targets.len());
-        return document.refuse(list.span(), message, "give one position for each target, in their order");
+        return list.refuse(message, "give one position for each target, in their order");
     }
-    covariance(section, document, 3 * count)?;
+    covariance(section, 3 * count)?;
     Some(StatedPlacement { targets: Some(targets), ..StatedPlacement::default() })
 }
 
 /// Reads `[[place]]`: identified geometry and zero of the fixtures of instruments.
-pub(super) fn found_places(
-    root: &Section<'_>,
-    layout: Option<Layout>,
-    document: &mut Document,
-) -> Option<Layout> {
+pub(super) fn found_places(root: &Section<'_>, layout: Option<Layout>) -> Option<Layout> {
     let Some(list) = root.get("place") else { return layout };
     let Layout::Instruments(mut all) = layout? else {
         let message = "`[[place]]` is for fixtures of instruments, and this map has no [[instrument]]";
-        return document.refuse(list.key_span.clone(), message, "remove it");
+        return list.refuse_key(message, "remove it");
     };
-    for item in document.array(&list, "an array of tables [[place]]")? {
-        let section = document.table(&item, "this [[place]]", &[&keys::PLACE])?;
-        let name = section.required("name", document)?;
+    for item in list.array("an array of tables [[place]]")? {
+        let section = item.table("this [[place]]", &[&keys::PLACE])?;
+        let name = section.required("name")?;
         let names = all.list.iter().map(|instrument| instrument.name.as_str());
-        let instrument = read_name(document, &name, names, "instrument")?;
+        let instrument = read_name(&name, names, "instrument")?;
         let (fixture, first) = (all.fixture_of(instrument), all.list[instrument].observables.start);
         let (kind, zero_known) = (all.observables[first].kind, all.observables[first].zero_known);
         if let Some(fixture) = fixture {
@@ -173,60 +159,59 @@ pub(super) fn found_places(
                 FixtureGeometry::Point(_) => ("position", Dimension::LENGTH),
                 FixtureGeometry::Direction(_) => ("direction", Dimension::NONE),
             };
-            let three = section.required(key, document)?;
-            let found = document.quantities(&three, "three numbers: x, y, z", dimension)?;
+            let three = section.required(key)?;
+            let found = three.quantities("three numbers: x, y, z", dimension)?;
             all.fixtures[fixture].geometry = match all.fixtures[fixture].geometry {
                 FixtureGeometry::Point(_) => FixtureGeometry::Point(found),
                 FixtureGeometry::Direction(_) if norm(found) > 0.0 => FixtureGeometry::Direction(found),
                 FixtureGeometry::Direction(_) => {
                     let help = "write a vector such as [0, 0, 1] for z";
-                    return document.refuse(item.span(), "`direction` must not be zero", help);
+                    return item.refuse("`direction` must not be zero", help);
                 }
             };
         }
         if !zero_known {
-            let zero = section.required("zero", document)?;
+            let zero = section.required("zero")?;
             let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
-            all.observables[first].zero = document.quantity(&zero, dimension)?;
+            all.observables[first].zero = zero.quantity(dimension)?;
         }
         if let Some(camera) = &mut all.camera {
-            let item = section.required("intrinsics", document)?;
+            let item = section.required("intrinsics")?;
             let what = "nine numbers: fx fy cx cy k1 k2 p1 p2 k3";
-            camera.intrinsics = document.quantities(&item, what, Dimension::NONE)?;
-            covariance(&section, document, INTRINSICS)?;
+            camera.intrinsics = item.quantities(what, Dimension::NONE)?;
+            covariance(&section, INTRINSICS)?;
             all.found.push(instrument);
             continue;
         }
         let place = fixture.map_or(0, |fixture| all.fixtures[fixture].geometry.unknowns());
-        covariance(&section, document, place + usize::from(!zero_known))?;
+        covariance(&section, place + usize::from(!zero_known))?;
         all.found.push(instrument);
     }
     Some(Layout::Instruments(all))
 }
 
 /// Reads a position and a quaternion w x y z.
-fn place(section: &Section<'_>, document: &mut Document) -> Option<Pose> {
-    let position = section.required("position", document)?;
-    let position = document.quantities(&position, "three lengths", Dimension::LENGTH);
-    let item = section.required("quaternion", document)?;
-    let numbers: [f64; 4] = document.quantities(&item, "four numbers: w x y z", Dimension::NONE)?;
+fn place(section: &Section<'_>) -> Option<Pose> {
+    let position = section.required("position")?.quantities("three lengths", Dimension::LENGTH);
+    let item = section.required("quaternion")?;
+    let numbers: [f64; 4] = item.quantities("four numbers: w x y z", Dimension::NONE)?;
     match rotation::from_quaternion(&numbers) {
         Ok([a, b, c]) => Some(Pose([a, b, c, position?])),
-        Err(reason) => document.refuse(item.span(), reason, "write `[1, 0, 0, 0]` for no rotation"),
+        Err(reason) => item.refuse(reason, "write `[1, 0, 0, 0]` for no rotation"),
     }
 }
 
 /// Checks the size of a covariance, which is not used otherwise.
-fn covariance(section: &Section<'_>, document: &mut Document, size: usize) -> Option<()> {
+fn covariance(section: &Section<'_>, size: usize) -> Option<()> {
     let Some(item) = section.get("covariance") else { return Some(()) };
-    let rows = document.array(&item, "rows of numbers")?;
+    let rows = item.array("rows of numbers")?;
     let mut right = rows.len() == size;
     for row in &rows {
-        right &= document.array(row, "numbers")?.len() == size;
+        right &= row.array("numbers")?.len() == size;
     }
     if right {
         return Some(());
     }
     let message = format!("this covariance must have {size} rows of {size} numbers");
-    document.refuse(item.span(), message, "or remove it: no result depends on it")
+    item.refuse(message, "or remove it: no result depends on it")
 }

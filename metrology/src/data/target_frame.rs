@@ -4,7 +4,7 @@
 use abbe::{Manipulator, Pose};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
-use abbe_spec::document::{Document, Section};
+use abbe_spec::document::Section;
 
 /// Frames of the positions of targets, each with `true` for the flange.
 pub(super) const TARGET_FRAMES: [(&str, bool); 2] = [("tool", false), ("flange", true)];
@@ -20,9 +20,9 @@ pub struct TargetFrame {
 
 impl TargetFrame {
     /// Reads `target_frame` of `[data]`.
-    pub(super) fn read(head: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Self> {
+    pub(super) fn read(head: &Section<'_>, spec: &Spec) -> Option<Self> {
         let Some(item) = head.get("target_frame") else { return Some(Self::default()) };
-        let is_flange = document.choice(&item, &TARGET_FRAMES)?;
+        let is_flange = item.choice(&TARGET_FRAMES)?;
         Some(Self { is_stated: true, tool: is_flange.then(|| tool(spec)) })
     }
 

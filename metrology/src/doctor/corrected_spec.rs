@@ -85,7 +85,7 @@ fn zero(offset: f64, joint: usize, spec: &Spec) -> String {
 
 /// Returns the placement of a frame or the tool: its key and value.
 fn placement<'t>(table: &Item<'t>) -> Option<Item<'t>> {
-    table.table()?.items().find(|item| PLACEMENT_KEYS.contains(&item.key.as_str()))
+    table.as_table()?.items().find(|item| PLACEMENT_KEYS.contains(&item.key.as_str()))
 }
 
 /// Returns the location of a key and its value.
@@ -179,14 +179,14 @@ impl File<'_, '_, '_> {
                 "a" => "Tx",
                 _ => "Rx",
             };
-            Some((name.to_owned(), self.amount(&item.table()?.get(key)?)))
+            Some((name.to_owned(), self.amount(&item.as_table()?.get(key)?)))
         };
         keys.into_iter().map(factor).collect()
     }
 
     /// Returns a URDF origin as factors: T(xyz) Rz(yaw) Ry(pitch) Rx(roll).
     fn origin(&self, item: &Item<'_>) -> Option<Vec<(String, String)>> {
-        let table = item.table()?;
+        let table = item.as_table()?;
         let three = |key: &str, names: [&str; 3]| -> Vec<(String, String)> {
             let values = table.get(key).map(|values| values.list()).unwrap_or_default();
             names
@@ -233,7 +233,7 @@ impl File<'_, '_, '_> {
 
 /// Returns the locations of all strings in a value.
 fn strings(item: &Item<'_>) -> Vec<Range<usize>> {
-    let entries = item.table().into_iter().flat_map(|table| table.items()).chain(item.list());
+    let entries = item.as_table().into_iter().flat_map(|table| table.items()).chain(item.list());
     let own = item.is_text().then(|| item.span());
     own.into_iter().chain(entries.flat_map(|entry| strings(&entry))).collect()
 }

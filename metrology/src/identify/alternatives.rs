@@ -232,8 +232,8 @@ pub(crate) fn target_on_axis(setup: &Setup, rows: &[Observation]) -> Result<Opti
     q[joint] += ANGLE;
     turned.q = q.into();
     let model = setup.ideal.with(Vec::new());
-    let mut scratch = model.scratch();
-    let [here, there] = [model.pose(&mut scratch, row, &[])?, model.pose(&mut scratch, &turned, &[])?];
+    let mut at = model.at(&[]);
+    let [here, there] = [at.pose(row)?, at.pose(&turned)?];
     let radius = |target: &[f64; 3]| {
         let (a, b) = (here.apply(*target), there.apply(*target));
         let moved = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();

@@ -179,11 +179,11 @@ impl AsJointErrors {
         let all = self.others.iter().map(other).chain(self.numbers.iter().map(number));
         let (unknowns, x): (Vec<Unknown>, Vec<f64>) = all.unzip();
         let converted = setup.real.with(unknowns);
-        let (mut scratch, mut scratch_of_fit) = (converted.scratch(), model.scratch());
+        let (mut converted, mut fitted) = (converted.at(&x), model.at(&fit.x));
         let (mut squares, mut points) = (0.0, 0);
         for row in rows.iter().step_by(rows.len().div_ceil(ROWS)) {
-            let here = converted.deviations(&mut scratch, row, &x)?;
-            for (a, b) in here.iter().zip(model.deviations(&mut scratch_of_fit, row, &fit.x)?) {
+            let here = converted.deviations(row)?;
+            for (a, b) in here.iter().zip(fitted.deviations(row)?) {
                 squares += (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>();
                 points += 1;
             }

@@ -87,7 +87,7 @@ fn with_board_in_view(
     let wanted: Vec<Option<f64>> = ends.as_flattened().iter().map(|pixel| Some(*pixel)).collect();
     let Some(q) = joints_at_values(&model, &view, &[], &wanted, moved)? else { return Ok(None) };
     let view = Observation { q: q.into(), ..view };
-    let tool = setup.ideal.pose(&mut setup.ideal.scratch(), &view, &[])?;
+    let tool = setup.ideal.at(&[]).pose(&view)?;
     let board = if camera.is_on_tool { tool.inverse() } else { tool };
     let is_in_view = all.observables.chunks_exact(2).all(|corner| {
         let point = board.apply(corner[0].corner);

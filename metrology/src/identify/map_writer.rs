@@ -48,7 +48,7 @@ impl FoundModel {
 /// Replaces each `"unknown"` uncertainty of a map by its estimate.
 fn set_uncertainties(root: &Section<'_>, edits: &mut Edits<'_>, map: &Map, estimated: &[InstrumentFit]) {
     let mut set = |item: &Item<'_>, key: &str, name: &str| {
-        let value = item.table().and_then(|table| table.get(key));
+        let value = item.as_table().and_then(|table| table.get(key));
         let value = value.filter(|value| value.text() == Some(UNKNOWN[0].0));
         if let (Some(value), Some(one)) = (value, estimated.iter().find(|one| one.name == name)) {
             edits.replace(value.span(), quantity(digits(one.uncertainty, 3), one.unit));

@@ -21,11 +21,11 @@ impl Setup<'_> {
             let Some(fixture) = all.fixture_of(instrument) else { continue };
             let own = all.list[instrument].observables.clone();
             let (mut sum, mut count) = ([0.0; 3], 0.0);
-            let mut scratch = self.real.scratch();
+            let mut at = self.real.at(&[]);
             for row in &data.observations {
                 let Measurement::Readings(readings) = &row.measured else { continue };
                 if readings[own.clone()].iter().all(Option::is_some) {
-                    let off = self.real.values(&mut scratch, row, &[])?;
+                    let off = at.values(row)?;
                     sum.iter_mut().zip(&off[own.clone()]).for_each(|(sum, off)| *sum += off);
                     count += 1.0;
                 }

@@ -28,10 +28,10 @@ pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option
     let lengths = model.observables.iter().filter(|reading| !reading.kind.is_angle && model.camera.is_none());
     let length = lengths.map(|reading| reading.uncertainty).reduce(f64::max);
     let bound = 10.0 * robust.sigma * length.unwrap_or(model.uncertainty.length);
-    let mut scratch = model.scratch();
+    let mut at = model.at(&robust.x);
     let mut wrong = Vec::new();
     for row in rows {
-        let distances = model.distances(&mut scratch, row, &robust.x).ok()?;
+        let distances = at.distances(row).ok()?;
         wrong.extend(distances.iter().any(|distance| *distance > bound).then_some(row.line));
     }
     let poses = rows.iter().any(|row| matches!(row.measured, Measurement::Pose(_)));

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use abbe::identify::{Failure, Model, Observation, Scratch};
+use abbe::identify::{EvaluatedModel, Failure, Observation};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::solve::Solved;
@@ -32,47 +32,28 @@ pub struct PointResidual {
     pub is_rejected: bool,
 }
 
-/// Model with values of its unknowns.
-struct EvaluatedModel<'m> {
-    model: &'m Model<'m>,
-    x: &'m [f64],
-    scratch: Scratch,
-}
-
-impl<'m> EvaluatedModel<'m> {
-    fn new(model: &'m Model<'m>, x: &'m [f64]) -> Self {
-        Self { model, x, scratch: model.scratch() }
-    }
-
-    fn deviations(&mut self, row: &Observation) -> Result<Vec<[f64; 3]>, Failure> {
-        let points = self.model.deviations(&mut self.scratch, row, self.x)?;
-        Ok(points.into_iter().map(|point| point.map(|v| -v)).collect())
-    }
-
-    /// Returns the residuals of a row. `self` is the identified model, `before` the one with only
-    /// base and tool fitted.
-    fn residuals(
-        &mut self,
-        before: &mut EvaluatedModel,
-        row: &Observation,
-        is_test: bool,
-        is_rejected: bool,
-    ) -> Result<Vec<PointResidual>, Failure> {
-        let point = self.model.pose(&mut self.scratch, row, self.x)?.position();
-        let both = before.deviations(row)?.into_iter().zip(self.deviations(row)?);
-        let one = |(before, after)| PointResidual {
-            line: row.line,
-            q: row.q.to_vec(),
-            u: row.u.to_vec(),
-            station: row.station as usize,
-            point,
-            before,
-            after,
-            is_test,
-            is_rejected,
-        };
-        Ok(both.map(one).collect())
-    }
+/// Returns the residuals of a row: `after` is the identified model, `before` the one with only base
+/// and tool fitted.
+fn residuals(
+    [before, after]: [&mut EvaluatedModel; 2],
+    row: &Observation,
+    is_test: bool,
+    is_rejected: bool,
+) -> Result<Vec<PointResidual>, Failure> {
+    let point = after.pose(row)?.position();
+    let both = before.deviations(row)?.into_iter().zip(after.deviations(row)?);
+    let one = |(before, after): ([f64; 3], [f64; 3])| PointResidual {
+        line: row.line,
+        q: row.q.to_vec(),
+        u: row.u.to_vec(),
+        station: row.station as usize,
+        point,
+        before: before.map(|v| -v),
+        after: after.map(|v| -v),
+        is_test,
+        is_rejected,
+    };
+    Ok(both.map(one).collect())
 }
 
 /// Returns the residuals of every point, for plots.
@@ -82,13 +63,13 @@ pub(super) fn points(
     test: Option<&Data>,
 ) -> Result<Vec<PointResidual>, Diagnostics> {
     let Solved { simple, simple_x, model, fit, .. } = solved;
-    let (mut before, mut after) = (EvaluatedModel::new(simple, simple_x), EvaluatedModel::new(model, &fit.x));
+    let (mut before, mut after) = (simple.at(simple_x), model.at(&fit.x));
     let rejected: HashSet<u64> = fit.rejected(&data.observations).map(|row| row.line).collect();
     let mut points = Vec::new();
     for (data, is_test) in [(data, false)].into_iter().chain(test.map(|test| (test, true))) {
         for row in &data.observations {
             let is_rejected = !is_test && rejected.contains(&row.line);
-            let here = after.residuals(&mut before, row, is_test, is_rejected);
+            let here = residuals([&mut before, &mut after], row, is_test, is_rejected);
             points.extend(here.map_err(|failure| mistake::whole(&data.file, &failure))?);
         }
     }

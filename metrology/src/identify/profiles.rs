@@ -271,12 +271,12 @@ fn tool_point_deviation(
 ) -> Result<f64, Failure> {
     let errors = joints.iter().filter_map(|joint| joint_error(spec, setup, joint.variable));
     let model = setup.ideal.with(errors.collect());
-    let (mut scratch, zero) = (model.scratch(), vec![0.0; joints.len()]);
+    let mut at = model.at(&vec![0.0; joints.len()]);
     let rows = rows.iter().step_by(rows.len().div_ceil(SAMPLES));
     let count = rows.len();
     let mut variance = 0.0;
     for row in rows {
-        let (_, moves) = model.tool(&mut scratch, row, &zero)?;
+        let (_, moves) = at.tool(row)?;
         for (joint, derivative) in joints.iter().zip(moves) {
             variance += derivative.map(|one| (one * joint.standard_deviation).powi(2)).iter().sum::<f64>();
         }

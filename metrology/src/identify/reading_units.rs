@@ -52,11 +52,11 @@ pub(super) fn check_reading_units(setup: &Setup, map: &Map, data: &Data) -> Resu
 
 /// Returns each reading with the prediction of the nominal machine, for each observable.
 fn pairs(setup: &Setup, data: &Data) -> Result<Vec<Vec<(f64, f64)>>, Failure> {
-    let mut scratch = setup.ideal.scratch();
+    let mut at = setup.ideal.at(&[]);
     let mut pairs = vec![Vec::new(); setup.ideal.observables.len()];
     for row in &data.observations {
         let Measurement::Readings(readings) = &row.measured else { continue };
-        let values = setup.ideal.values(&mut scratch, row, &[])?;
+        let values = at.values(row)?;
         for ((pairs, reading), value) in pairs.iter_mut().zip(readings).zip(values) {
             pairs.extend(reading.map(|reading| (reading, value)));
         }

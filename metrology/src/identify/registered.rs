@@ -49,12 +49,12 @@ fn register_tool(
     corners: [[f64; 3]; 4],
     open: &OpenPlaces,
 ) -> Result<(), Failure> {
-    let mut scratch = model.scratch();
     let bare = Model { mountings: vec![Pose::IDENTITY; model.mountings.len()], ..model.clone() };
+    let mut bare = bare.at(&[]);
     let mut frames = vec![(Vec::new(), Vec::new()); model.mountings.len()];
     let mut sums = vec![([0.0; 3], 0.0); model.targets.len()];
     for row in rows {
-        let back = bare.pose(&mut scratch, row, &[])?.inverse();
+        let back = bare.pose(row)?.inverse();
         let own = model.targets_at(row.station as usize);
         for ((sum, count), point) in sums[own].iter_mut().zip(points(model, row)) {
             let Some(point) = point else { continue };
@@ -92,13 +92,13 @@ pub(super) fn registered(
 ) -> Result<Option<Pose>, Failure> {
     let mut model = model.clone();
     model.stations[station].pose = Pose::IDENTITY;
-    let mut scratch = model.scratch();
+    let mut at = model.at(&vec![0.0; model.unknowns.len()]);
     let first = model.targets_at(station).start;
     let rows = data.iter().filter(|row| row.station as usize == station);
     // The measured points stay in the rows; only the predicted ones are stored.
-    let (mut from, x) = (Vec::new(), vec![0.0; model.unknowns.len()]);
+    let mut from = Vec::new();
     for observation in rows.clone() {
-        let pose = model.pose(&mut scratch, observation, &x)?;
+        let pose = at.pose(observation)?;
         let place = |target: Option<usize>| {
             target.map_or_else(|| pose.position(), |target| pose.apply(model.targets[first + target]))
         };

@@ -26,11 +26,11 @@ fn scale_uncertainty(ideal: &Model, rows: &[Observation], moved: &[usize]) -> Re
     if moved.iter().any(|j| variables[*j].kind == VariableKind::Prismatic) {
         return Ok(0.0);
     }
-    let mut scratch = ideal.scratch();
+    let mut at = ideal.at(&[]);
     let mut all: Vec<Vec<f64>> = vec![Vec::new(); ideal.observables.len()];
     for row in rows {
         let Measurement::Readings(read) = &row.measured else { continue };
-        let values = ideal.values(&mut scratch, row, &[])?;
+        let values = at.values(row)?;
         for (i, value) in values.into_iter().enumerate().filter(|(i, _)| read[*i].is_some()) {
             all[i].push(value - ideal.observables[i].zero);
         }

@@ -275,7 +275,7 @@ fn set_magnitudes(
     let sources = root.get("source").map(|item| item.list()).unwrap_or_default();
     let mut changed = String::new();
     for FoundMagnitude { source, magnitude, standard_deviation, .. } in magnitudes {
-        let section = sources.get(*source).and_then(|item| item.table());
+        let section = sources.get(*source).and_then(|item| item.as_table());
         let Some(item) = section.and_then(|section| section.get("magnitude")) else { continue };
         let table = magnitude_table(*magnitude, *standard_deviation);
         changed += &format!("# {}\nmagnitude = {table}\n\n", spec.sources[*source].name);

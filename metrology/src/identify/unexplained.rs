@@ -52,10 +52,10 @@ fn random_variance(setup: &Setup, rows: &[&Observation]) -> Result<f64, Failure>
     // The fit has found the values of tolerances.
     random.retain(|(source, _)| !setup.description.sources[*source].class.can_be_compensated());
     let model = setup.real.with(random.iter().map(|(source, _)| Unknown::Magnitude(*source)).collect());
-    let (mut scratch, zero) = (model.scratch(), vec![0.0; random.len()]);
+    let mut at = model.at(&vec![0.0; random.len()]);
     let (mut sum, mut count) = (0.0, 0.0_f64);
     for row in rows.iter().step_by(rows.len().div_ceil(EVALUATED).max(1)) {
-        let (_, moves) = model.tool(&mut scratch, row, &zero)?;
+        let (_, moves) = at.tool(row)?;
         let variances = moves.iter().zip(&random);
         sum += variances
             .map(|(moved, (_, variance))| variance * moved.iter().map(|row| row * row).sum::<f64>())

@@ -1,7 +1,7 @@
 //! ΔX of each row, equation (5): measured minus ideal.
 
 use abbe::analysis::sampling::norm;
-use abbe::identify::{Failure, Measurement, Model, Observation, Scratch, register};
+use abbe::identify::{Failure, Measurement, Model, Observation, register};
 use abbe::{Orientation, Pose, deviation};
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -75,30 +75,28 @@ type Seen = ([f64; 6], [f64; 3]);
 /// Computes the errors of rows one at a time.
 pub(super) struct Errors<'a> {
     model: Model<'a>,
-    scratch: Scratch,
     /// The machine with its repeatable sources.
     real: Model<'a>,
-    scratch_of_real: Scratch,
 }
 
 impl<'a> Errors<'a> {
     pub(super) fn new(setup: &Setup<'a>) -> Self {
         let [model, real] = [&setup.ideal, &setup.real].map(at_single_target);
-        Self { scratch: model.scratch(), model, scratch_of_real: real.scratch(), real }
+        Self { model, real }
     }
 
     /// Returns the error and the measured tool point of a row; none if fewer than three targets are
     /// visible.
-    pub(super) fn at(&mut self, row: &Observation) -> Result<Option<Seen>, Failure> {
-        let ideal = self.model.pose(&mut self.scratch, row, &[])?;
+    pub(super) fn at(&self, row: &Observation) -> Result<Option<Seen>, Failure> {
+        let ideal = self.model.at(&[]).pose(row)?;
         let real = pose(&self.model, row, &ideal);
         Ok(real.map(|real| (deviation(Orientation::RotationVector, &ideal, &real), real.position())))
     }
 
     /// Returns the error of a row that shows the tool.
-    pub(super) fn row_error(&mut self, row: &Observation) -> Result<RowError, Failure> {
+    pub(super) fn row_error(&self, row: &Observation) -> Result<RowError, Failure> {
         let (error, point) = self.at(row)?.unwrap_or_default();
-        let predicted = self.real.pose(&mut self.scratch_of_real, row, &[])?;
+        let predicted = self.real.at(&[]).pose(row)?;
         let measured = pose(&self.real, row, &predicted).unwrap_or(predicted);
         let residual = deviation(Orientation::RotationVector, &predicted, &measured);
         Ok(RowError { observation: row.clone(), error, point, residual })
@@ -107,7 +105,7 @@ impl<'a> Errors<'a> {
 
 /// Moves rows that do not determine the pose of the tool to the unusable ones.
 pub(super) fn leave_out(setup: &Setup, data: &mut Data) -> Result<(), Diagnostics> {
-    let mut errors = Errors::new(setup);
+    let errors = Errors::new(setup);
     let (mut failed, mut hidden) = (None, Vec::new());
     data.observations.retain(|row| match errors.at(row) {
         Ok(Some(_)) => true,

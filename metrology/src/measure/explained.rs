@@ -1,7 +1,7 @@
 //! Measured errors compared with the prediction by the sources of the spec.
 
 use abbe::Class;
-use abbe::identify::{Chance, Failure, Figures, Observation, Unknown, simulate};
+use abbe::identify::{Chance, EvaluatedModel, Failure, Figures, Model, Observation, Unknown, simulate};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -45,14 +45,15 @@ pub(super) fn explained(setup: &Setup, rows: &[Observation]) -> Result<Explained
     let region = PredictionRegion { setup, random: &random };
     let boundary = region.boundary(rows)?;
     let (mut before, mut left, mut inside) = (0.0, Vec::new(), 0);
-    let (mut scratch, mut errors) = (region.scratch(), Errors::new(setup));
+    let (model, errors) = (region.model(), Errors::new(setup));
+    let mut model = model.at(&vec![0.0; random.len()]);
+    let (mut real, mut ideal) = (setup.real.at(&[]), setup.ideal.at(&[]));
     for row in rows {
         let (_, point) = errors.at(row)?.unwrap_or_default();
-        inside += usize::from(region.distance(&mut scratch, row, point)? <= boundary);
+        inside += usize::from(region.distance(&mut model, row, point)? <= boundary);
         // At each target, where the measurement was made.
-        let Scratch { scratch, .. } = &mut scratch;
-        left.extend(setup.real.distances(scratch, row, &[])?);
-        before += setup.ideal.distances(scratch, row, &[])?.iter().map(|v| v * v).sum::<f64>();
+        left.extend(real.distances(row)?);
+        before += ideal.distances(row)?.iter().map(|v| v * v).sum::<f64>();
     }
     let share = 1.0 - left.iter().map(|v| v * v).sum::<f64>() / before.max(f64::MIN_POSITIVE);
     let figures = Figures::from_norms(left);
@@ -94,30 +95,24 @@ struct PredictionRegion<'a> {
     random: &'a [(usize, f64)],
 }
 
-/// A model with the magnitudes of the random sources, and its scratch memory.
-struct Scratch<'a> {
-    model: abbe::identify::Model<'a>,
-    scratch: abbe::identify::Scratch,
-}
-
 impl<'a> PredictionRegion<'a> {
-    fn scratch(&self) -> Scratch<'a> {
+    /// Returns the model with the magnitudes of the random sources as unknowns.
+    fn model(&self) -> Model<'a> {
         let magnitudes = self.random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect();
-        let model = at_single_target(&self.setup.real).with(magnitudes);
-        Scratch { scratch: model.scratch(), model }
+        at_single_target(&self.setup.real).with(magnitudes)
     }
 
     /// Returns the Mahalanobis distance `√(eᵀ C⁻¹ e)` of a residual, with
     /// `C = Σ variance · m mᵀ + σ²` and m the displacement by a source of magnitude 1.
     fn distance(
         &self,
-        Scratch { model, scratch }: &mut Scratch<'a>,
+        model: &mut EvaluatedModel,
         row: &Observation,
         point: [f64; 3],
     ) -> Result<f64, Failure> {
-        let (ideal, moves) = model.tool(scratch, row, &vec![0.0; self.random.len()])?;
+        let (ideal, moves) = model.tool(row)?;
         let rest: [f64; 3] = std::array::from_fn(|k| point[k] - ideal.position()[k]);
-        let noise = model.uncertainty.length.powi(2) / row.weight;
+        let noise = self.setup.real.uncertainty.length.powi(2) / row.weight;
         let mut covariance = [[noise, 0.0, 0.0], [0.0, noise, 0.0], [0.0, 0.0, noise]];
         for (moved, (_, variance)) in moves.iter().zip(self.random) {
             for (i, row) in covariance.iter_mut().enumerate() {
@@ -132,9 +127,9 @@ impl<'a> PredictionRegion<'a> {
     fn boundary(&self, rows: &[Observation]) -> Result<f64, Failure> {
         let step = rows.len().div_ceil(SIMULATED).max(1);
         let list: Vec<Observation> = rows.iter().step_by(step).cloned().collect();
-        let mut scratch = self.scratch();
-        let ideal = at_single_target(&self.setup.ideal);
-        let mut ideal_scratch = ideal.scratch();
+        let (model, ideal) = (self.model(), at_single_target(&self.setup.ideal));
+        let mut random = model.at(&vec![0.0; self.random.len()]);
+        let mut nominal = ideal.at(&[]);
         let mut distances = Vec::new();
         for seed in 0..(SIMULATED / list.len().max(1)).max(1) as u64 {
             let noise = self.setup.real.uncertainty;
@@ -147,9 +142,9 @@ impl<'a> PredictionRegion<'a> {
                 seed,
             };
             for row in simulate(&self.setup.real, &list, &chance)? {
-                let pose_of_ideal = ideal.pose(&mut ideal_scratch, &row, &[])?;
+                let pose_of_ideal = nominal.pose(&row)?;
                 if let Some(real) = pose(&ideal, &row, &pose_of_ideal) {
-                    distances.push(self.distance(&mut scratch, &row, real.position())?);
+                    distances.push(self.distance(&mut random, &row, real.position())?);
                 }
             }
         }

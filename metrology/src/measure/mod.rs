@@ -303,7 +303,7 @@ impl Evaluated {
         let unit = setup.description.length.symbol();
         let numbers = if setup.pose || setup.ideal.targets_of(0).len() > 1 { 6 } else { 3 };
         let mut sizes = vec![Sums::default(); numbers + 1];
-        let (mut errors, mut norms) = (Errors::new(setup), identify::Distances::default());
+        let (errors, mut norms) = (Errors::new(setup), identify::Distances::default());
         let again = visited_again(&data.observations);
         let (mut visits, mut rows) = (Vec::new(), Vec::new());
         for (i, row) in data.observations.iter().enumerate() {

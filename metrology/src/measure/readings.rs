@@ -116,10 +116,10 @@ fn predicted(row: &Observation, left: &[Option<f64>]) -> Vec<Option<f64>> {
 
 /// Returns reading minus model for each row.
 fn differences(model: &Model, rows: &[Observation]) -> Result<Vec<Vec<Option<f64>>>, Failure> {
-    let mut scratch = model.scratch();
+    let mut at = model.at(&[]);
     let difference = |row: &Observation| {
         let Measurement::Readings(readings) = &row.measured else { return Ok(Vec::new()) };
-        let values = model.values(&mut scratch, row, &[])?;
+        let values = at.values(row)?;
         Ok(readings.iter().zip(values).map(|(reading, value)| Some((*reading)? - value)).collect())
     };
     rows.iter().map(difference).collect()

@@ -127,7 +127,7 @@ impl CheckValues {
         common: &[Option<usize>],
         first: bool,
     ) -> Result<Vec<f64>, abbe::identify::Failure> {
-        let (mut scratch, x) = (model.scratch(), vec![0.0; model.unknowns.len()]);
+        let mut at = model.at(&vec![0.0; model.unknowns.len()]);
         let counts = visits.counts(common.len());
         let mut means: Vec<f64> = Vec::new();
         // The first check numbers its configurations in this order.
@@ -137,16 +137,16 @@ impl CheckValues {
             let row = visits.in_f0(row);
             let is_new = first && number == next;
             let numbers = if is_new {
-                let (numbers, moves) = model.linearized(&mut scratch, &row, &x)?.into_iter().unzip();
+                let (numbers, moves) = at.linearized(&row)?.into_iter().unzip();
                 let moves: Vec<Vec<f64>> = moves;
                 for (k, column) in self.columns.iter_mut().enumerate() {
                     column.extend(moves.iter().map(|derivatives| derivatives[k]));
                 }
-                self.moves.push(model.tool(&mut scratch, &row, &x)?.1);
+                self.moves.push(at.tool(&row)?.1);
                 next += 1;
                 numbers
             } else {
-                model.differences(&mut scratch, &row, &x)?
+                at.differences(&row)?
             };
             means.resize(self.configurations * numbers.len(), 0.0);
             let share = 1.0 / f64::from(counts[configuration]);

@@ -23,16 +23,16 @@ pub(super) fn residuals(
 
 /// Returns the mean errors in one check, as errors `after`.
 fn means(model: &Model, visits: &Visits, common: &[Option<usize>]) -> Result<Vec<Residual>, Failure> {
-    let (mut scratch, x) = (model.scratch(), vec![0.0; model.unknowns.len()]);
+    let mut at = model.at(&vec![0.0; model.unknowns.len()]);
     let counts = visits.counts(common.len());
     let mut means: Vec<Vec<Residual>> = vec![Vec::new(); common.iter().flatten().count()];
     for (row, configuration) in visits.rows() {
         let Some(number) = common[configuration] else { continue };
         let row = visits.in_f0(row);
-        let deviations = model.deviations(&mut scratch, &row, &x)?;
+        let deviations = at.deviations(&row)?;
         let mean = &mut means[number];
         if mean.is_empty() {
-            let point = model.pose(&mut scratch, &row, &x)?.position();
+            let point = at.pose(&row)?.position();
             mean.resize(deviations.len(), Residual::new(&row, &row.q, point, [0.0; 3]));
         }
         // Deviations are predicted minus measured.

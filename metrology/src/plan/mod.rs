@@ -295,6 +295,6 @@ fn with_nominal_measurements(
     model: &Model,
     rows: impl Iterator<Item = Observation>,
 ) -> Result<Vec<Observation>, Failure> {
-    let mut scratch = model.scratch();
-    rows.map(|row| model.nominally_seen(&mut scratch, &row)).collect()
+    let mut nominal = model.at(&vec![0.0; model.unknowns.len()]);
+    rows.map(|row| nominal.nominally_seen(&row)).collect()
 }

@@ -4,11 +4,10 @@
 
 use abbe_spec::option::SETS;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use abbe::analysis::{Axis, Configuration, Workspace, joint_grid};
 use abbe::{Error, Manipulator};
-use abbe_spec::document::{Document, Section};
+use abbe_spec::document::Section;
 use abbe_spec::{Diagnostic, Diagnostics, Spec};
 use serde::Serialize;
 
@@ -57,11 +56,8 @@ impl Sets {
     pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
         let mut document =
             named::document(&SETS, argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
-        let text = Arc::clone(&document.text);
         document.length = spec.length;
-        let tables = document.tables(&text);
-        let sets = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));
-        document.finish(sets)
+        document.read_tables(|root| read(root, spec))
     }
 
     /// Returns all rows, and the number of rows of each set.
@@ -129,49 +125,45 @@ impl Sets {
     }
 }
 
-fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets> {
-    if !document.is_kind(root, "plan") {
+fn read(root: &Section<'_>, spec: &Spec) -> Option<Sets> {
+    if !root.is_kind("plan") {
         return None;
     }
-    root.check_keys(&[&keys::FILE], document);
-    let head = root.required("plan", document)?;
-    let head = document.table(&head, "[plan]", &[&keys::PLAN])?;
-    let repeat =
-        head.get("repeat").map_or(Some(1), |item| count(&item, keys::MOST_REPEATS as usize, document));
+    root.check_keys(&[&keys::FILE]);
+    let head = root.required("plan")?.table("[plan]", &[&keys::PLAN])?;
+    let repeat = head.get("repeat").map_or(Some(1), |item| count(&item, keys::MOST_REPEATS as usize));
     let inputs = match root.get("inputs") {
-        Some(item) => Candidates::inputs(spec).axes(&item, document),
+        Some(item) => Candidates::inputs(spec).axes(&item),
         None => Vec::new(),
     };
-    let items = root
-        .required_list("set", document)
-        .and_then(|item| document.array(&item, "an array of tables [[set]]"))?;
+    let items = root.required_list("set").and_then(|item| item.array("an array of tables [[set]]"))?;
     if items.is_empty() {
         let item = root.get("set").map_or(0..0, |item| item.span());
-        document.mistake(Diagnostic::new(item, "a plan needs at least one set").help("add a [[set]]"));
+        root.document.mistake(Diagnostic::new(item, "a plan needs at least one set").help("add a [[set]]"));
     }
     let mut sets = Vec::new();
     for item in &items {
-        let section = document.table(item, "this [[set]]", &[&keys::SET])?;
-        let name = section.optional_text("name", document);
+        let section = item.table("this [[set]]", &[&keys::SET])?;
+        let name = section.optional_text("name");
         let content = if let Some(axes) = section.get("axes") {
             if let Some(workspace) = section.get("workspace") {
                 let message = "a set has a `workspace` or `axes`, not both";
                 let help = "write two sets instead";
                 let mistake = Diagnostic::new(axes.key_span.clone(), message).label("one too many");
-                document.mistake(mistake.context(workspace.key_span, "the other one").help(help));
+                root.document.mistake(mistake.context(workspace.key_span, "the other one").help(help));
             }
-            Content::Axes(Candidates::variables(spec).axes(&axes, document))
+            Content::Axes(Candidates::variables(spec).axes(&axes))
         } else {
-            let workspace = section.required("workspace", document)?;
-            Content::Workspace(read_region(&workspace, document, spec)?)
+            let workspace = section.required("workspace")?;
+            Content::Workspace(read_region(&workspace, spec)?)
         };
         sets.push(Set { name, content });
     }
     Some(Sets {
-        title: head.optional_text("title", document),
+        title: head.optional_text("title"),
         repeat: repeat?,
         sets,
         inputs,
-        files: document.files.clone(),
+        files: root.document.files.take(),
     })
 }

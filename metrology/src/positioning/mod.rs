@@ -124,9 +124,9 @@ impl Positioning<'_> {
         }
         let value = |option: &NamedOption, text: &Option<String>, dimension: Dimension| {
             let Some(text) = text else { return Ok(0.0) };
-            let mut document = Document::new(option, text.as_str());
+            let document = Document::new(option, text.as_str());
             let name = format!("`{option}`");
-            let value = parse_value(&mut document, 0..text.len(), LengthUnit::Millimetre, dimension, &name);
+            let value = parse_value(&document, 0..text.len(), LengthUnit::Millimetre, dimension, &name);
             let value = document.finish(value)?;
             if value < 0.0 {
                 let help = "give a standard uncertainty: 0 or more";

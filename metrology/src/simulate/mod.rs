@@ -164,14 +164,14 @@ impl Simulate {
             Planned::Sampled { .. } => &[][..],
         };
         let mut simulated = Simulated::new(&setup.real, listed, &chance);
-        let mut scratch = setup.ideal.scratch();
+        let mut at = setup.ideal.at(&[]);
         for i in 0..planned.len() {
             if i.is_multiple_of(PROGRESS_STEP) {
                 notes.progress(i, planned.len());
                 notes.go_on()?;
             }
             let observation = simulated.row(i, &planned.row(i, map)).map_err(fail)?;
-            let ideal = setup.ideal.pose(&mut scratch, &observation, &[]).map_err(fail)?.position();
+            let ideal = at.pose(&observation).map_err(fail)?.position();
             let numbers = map.numbers(&observation, ideal, true);
             let numbers = finite(format!("{file}: {}", place(observation.line)), numbers)?;
             let label = map.stations.column.is_some();

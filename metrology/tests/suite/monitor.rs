@@ -59,9 +59,9 @@ impl Watched {
     /// Returns the displacement of the tool point per unit of an error at every configuration.
     fn effects(&self, error: Unknown) -> Vec<f64> {
         let model = self.model(error);
-        let mut room = model.scratch();
+        let mut at = model.at(&[0.0]);
         let moved = self.places.iter().map(|place| {
-            let (_, moves) = model.tool(&mut room, place, &[0.0]).unwrap();
+            let (_, moves) = at.tool(place).unwrap();
             moves[0].iter().map(|v| v * v).sum::<f64>().sqrt()
         });
         moved.collect()
@@ -78,7 +78,6 @@ impl Watched {
         seed: u64,
     ) -> Checks {
         let model = self.model(error);
-        let mut room = model.scratch();
         let list = (0..days).map(|day| {
             let time = day as f64;
             let noise = Uncertainty { length: NOISE, angle: 0.0 };
@@ -93,8 +92,7 @@ impl Watched {
             };
             let mut rows = simulate(&model, &self.places, &chance).unwrap();
             for row in &mut rows {
-                let [before, after] =
-                    [0.0, size(time)].map(|x| model.pose(&mut room, row, &[x]).unwrap().position());
+                let [before, after] = [0.0, size(time)].map(|x| model.at(&[x]).pose(row).unwrap().position());
                 let Measurement::Points(points) = &mut row.measured else { unreachable!() };
                 for point in points.iter_mut().flatten() {
                     *point = station(time).apply(std::array::from_fn(|k| point[k] + after[k] - before[k]));

@@ -103,7 +103,7 @@ fn left(text: &str, data: &Data) -> f64 {
 
 /// Returns the tool point at a row, with all repeatable sources of a spec.
 fn point(model: &Model, data: &Data, row: usize) -> [f64; 3] {
-    model.pose(&mut model.scratch(), &data.observations[row], &[]).unwrap().position()
+    model.at(&[]).pose(&data.observations[row]).unwrap().position()
 }
 
 fn exact<'a>(manipulator: &'a Interpreter) -> Model<'a> {

@@ -43,9 +43,10 @@ impl<'t> Edits<'t> {
     /// assert_eq!(edited.as_deref(), Some("a = { b = 1 }"));
     /// ```
     pub fn apply(text: &'t str, edit: impl FnOnce(&Section<'_>, &mut Self) -> Option<()>) -> Option<String> {
-        let table = Document::new("", text).tables(text)?;
+        let document = Document::new("", text);
+        let table = document.tables(text)?;
         let mut edits = Self { text, list: Vec::new() };
-        edit(&Section::root(&table), &mut edits)?;
+        edit(&Section::root(&table, &document), &mut edits)?;
         let Self { mut list, .. } = edits;
         list.sort_by_key(|(span, _)| span.start);
         let (mut new, mut end) = (String::new(), 0);
@@ -70,7 +71,7 @@ impl<'t> Edits<'t> {
     /// Sets a key of a table: replaces its value, or inserts it behind the first key, in the form
     /// that the table has: inline, with a header, or with dotted keys.
     pub fn set(&mut self, table: &Item<'_>, key: &str, value: impl Display) {
-        let Some(section) = table.table() else { return };
+        let Some(section) = table.as_table() else { return };
         if let Some(item) = section.get(key) {
             return self.replace(item.span(), value);
         }
@@ -125,7 +126,7 @@ impl<'t> Edits<'t> {
                     above.take_while(|line| !line.ends_with('\n') || line.trim_start().starts_with('#'));
                 headers.push((table.span().start - own.map(str::len).sum::<usize>(), is_removed));
             }
-            let items = table.table().into_iter().flat_map(|section| section.items());
+            let items = table.as_table().into_iter().flat_map(|section| section.items());
             items.for_each(|item| self.add_headers(&item, is_removed, headers));
         }
     }

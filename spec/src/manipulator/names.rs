@@ -21,14 +21,14 @@ const LONGEST: usize = 60;
 
 /// Returns `true` if `name` is valid in expressions and in generated code. Otherwise the reason is
 /// recorded at `at`.
-pub(super) fn check_identifier(name: &str, at: Span, document: &mut Document) -> bool {
+pub(super) fn check_identifier(name: &str, at: Span, document: &Document) -> bool {
     let Some((message, help)) = fault(name) else { return true };
     document.mistake(Diagnostic::new(at, message).label("not a valid name").help(help));
     false
 }
 
 /// Checks the name of a manipulator, which becomes the name of a module.
-pub(super) fn check_manipulator_name(name: &str, at: Span, document: &mut Document) {
+pub(super) fn check_manipulator_name(name: &str, at: Span, document: &Document) {
     if check_identifier(name, at.clone(), document) && name.contains(|c: char| c.is_ascii_uppercase()) {
         let help = format!("write `{}`", name.to_ascii_lowercase());
         let mistake = Diagnostic::new(at, "the name of a manipulator must be in lower case");
@@ -38,8 +38,8 @@ pub(super) fn check_manipulator_name(name: &str, at: Span, document: &mut Docume
 
 /// Checks the name of a manipulator that is not in a file; diagnostics name `path`.
 pub fn check_name(path: impl Display, name: &str) -> Result<(), Diagnostics> {
-    let mut document = Document::new(path, name);
-    check_manipulator_name(name, 0..name.len(), &mut document);
+    let document = Document::new(path, name);
+    check_manipulator_name(name, 0..name.len(), &document);
     document.finish(Some(()))
 }
 
@@ -50,15 +50,14 @@ pub(super) fn read_title(
     kind: &str,
     first: impl FnOnce(&str) -> Option<Span>,
     help: &str,
-    document: &mut Document,
 ) -> Option<String> {
-    let item = section.required("name", document)?;
-    let name = title_of(&item, document)?;
+    let item = section.required("name")?;
+    let name = title_of(&item)?;
     section.name = format!("the {kind} \"{name}\"");
     section.span = item.span();
     if let Some(first) = first(&name) {
         let mistake = Diagnostic::new(item.span(), format!("duplicate {kind} name \"{name}\""));
-        document.mistake(mistake.label("second use").context(first, "first use").help(help));
+        section.document.mistake(mistake.label("second use").context(first, "first use").help(help));
     }
     Some(name)
 }
@@ -101,18 +100,18 @@ fn fault(name: &str) -> Option<(String, String)> {
 const LONGEST_TITLE: usize = 200;
 
 /// Reads a free-text name: not empty, on one line, shown as it is read, of limited length.
-fn title_of(item: &Item<'_>, document: &mut Document) -> Option<String> {
-    let name = document.string(item)?;
+fn title_of(item: &Item<'_>) -> Option<String> {
+    let name = item.string()?;
     if name.trim().is_empty() || name.contains(char::is_control) {
-        return document.refuse(item.span(), "expected a name on one line", "use a short, descriptive name");
+        return item.refuse("expected a name on one line", "use a short, descriptive name");
     }
     if let Some(c) = name.chars().find(|c| alters_text(*c)) {
         let message = format!("this name contains U+{:04X}, which alters the text around it", u32::from(c));
-        return document.refuse(item.span(), message, "remove this invisible character");
+        return item.refuse(message, "remove this invisible character");
     }
     if name.len() > LONGEST_TITLE {
         let message = format!("this name is longer than {LONGEST_TITLE} letters");
-        return document.refuse(item.span(), message, "use a short name, and `description` for the rest");
+        return item.refuse(message, "use a short name, and `description` for the rest");
     }
     Some(name)
 }

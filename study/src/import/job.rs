@@ -40,15 +40,15 @@ impl Import {
     }
 
     /// Writes the spec of a text; the spec names [`file`](Self::file) as its origin.
-    pub fn read(&self, mut document: Document, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn read(&self, document: Document, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let mut angles = AngleRounding::new(self.round_angles);
         let chain = match &self.format {
             Format::Urdf { base, tip, fold } => {
                 let ends = urdf::Ends { base: base.clone(), tip: tip.clone() };
-                urdf::read(&mut document, &ends, *fold, &mut angles, notes)
+                urdf::read(&document, &ends, *fold, &mut angles, notes)
             }
             Format::Table { convention, units } => {
-                dh::read(&mut document, *convention, *units, &mut angles, notes)
+                dh::read(&document, *convention, *units, &mut angles, notes)
             }
         };
         let chain = document.finish(chain)?;

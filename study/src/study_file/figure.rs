@@ -19,7 +19,7 @@
 //! ```
 
 use abbe::analysis::Measurand;
-use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::document::{Item, Section};
 use abbe_spec::value::{find_name, read_name};
 use abbe_spec::{Diagnostic, Spec};
 use serde::{Serialize, Serializer};
@@ -122,45 +122,38 @@ impl Figure {
 }
 
 /// Reads every `[[figure]]`; returns the defaults if there is none.
-pub(super) fn read_figures(
-    root: &Section<'_>,
-    document: &mut Document,
-    spec: &Spec,
-    region: Option<&Region>,
-) -> Vec<Figure> {
+pub(super) fn read_figures(root: &Section<'_>, spec: &Spec, region: Option<&Region>) -> Vec<Figure> {
     let Some(item) = root.get("figure") else { return region.map(Figure::defaults).unwrap_or_default() };
-    let items = document.array(&item, "an array of tables [[figure]]").unwrap_or_default();
+    let items = item.array("an array of tables [[figure]]").unwrap_or_default();
     let mut figures: Vec<Figure> = Vec::new();
     for item in items {
-        let Some(mut section) = document.section(&item) else { continue };
-        section.name = "a [[figure]]".to_owned();
-        let Some(figure) = read_one(&section, document, spec) else { continue };
+        let Some(section) = item.named("a [[figure]]") else { continue };
+        let Some(figure) = read_one(&section, spec) else { continue };
         let same = |other: &Figure| {
             (other.content, &other.source, other.measurand)
                 == (figure.content, &figure.source, figure.measurand)
         };
         if figures.iter().any(same) {
             let message = "duplicate figure";
-            document.mistake(Diagnostic::new(item.span(), message).help("remove one of them"));
+            root.document.mistake(Diagnostic::new(item.span(), message).help("remove one of them"));
         }
         figures.push(figure);
     }
     figures
 }
 
-fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Figure> {
-    let kind = section.required("kind", document).and_then(|item| document.choice(&item, &KINDS))?;
-    section.check_keys(keys::accepted(kind), document);
+fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Figure> {
+    let kind = section.required("kind").and_then(|item| item.choice(&KINDS))?;
+    section.check_keys(keys::accepted(kind));
     let content = match kind {
         Kind::Travel => {
-            let item = section.required("over", document)?;
-            Content::Travel(over(&item, document, spec)?)
+            let item = section.required("over")?;
+            Content::Travel(over(&item, spec)?)
         }
         Kind::Surface => {
-            let item = section.required("over", document)?;
             let entries: [Item<'_>; 2] =
-                document.entries(&item, "two names: variables, parameters or inputs")?;
-            let [first, second] = entries.map(|entry| over(&entry, document, spec));
+                section.required("over")?.entries("two names: variables, parameters or inputs")?;
+            let [first, second] = entries.map(|entry| over(&entry, spec));
             Content::Surface([first?, second?])
         }
         Kind::Cloud => Content::Cloud,
@@ -168,26 +161,26 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         Kind::Pareto => Content::Pareto,
         Kind::Manipulator => {
             let up = section.get("up");
-            let up = up.map(|item| document.choice(&item, &UP_AXES));
+            let up = up.map(|item| item.choice(&UP_AXES));
             Content::Manipulator(up.unwrap_or(Some(UP))?)
         }
     };
     let mut figure = Figure::new(content);
     if let Some(item) = section.get("source") {
         let names = spec.sources.iter().map(|source| source.name.as_str());
-        let source = read_name(document, &item, names, "source")?;
+        let source = read_name(&item, names, "source")?;
         figure.source = Some(spec.sources[source].name.clone());
     }
     if let Some(item) = section.get("rows") {
-        figure.measurand = document.choice(&item, &MEASURANDS)?;
+        figure.measurand = item.choice(&MEASURANDS)?;
     }
     if let Some(item) = section.get("workspace") {
-        let mut region = read_region(&item, document, spec)?;
+        let mut region = read_region(&item, spec)?;
         region.over_ranges(spec);
         figure.region = Some(region);
     }
-    figure.caption = section.optional_text("caption", document);
-    figure.paper = section.optional_text("paper", document);
+    figure.caption = section.optional_text("caption");
+    figure.paper = section.optional_text("paper");
     Some(figure)
 }
 
@@ -196,13 +189,13 @@ fn rows<S: Serializer>(measurand: &Measurand, serializer: S) -> Result<S::Ok, S:
     serializer.serialize_str(name.unwrap_or_default())
 }
 
-fn over(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Over> {
-    let name = document.string(item)?;
+fn over(item: &Item<'_>, spec: &Spec) -> Option<Over> {
+    let name = item.string()?;
     let variables = spec.variables.iter().map(|variable| variable.name.as_str());
     let parameters = spec.parameters.iter().map(|parameter| parameter.name.as_str());
     let inputs = spec.inputs.iter().map(|input| input.name.as_str());
     let names = variables.chain(parameters).chain(inputs).collect::<Vec<_>>();
-    let index = find_name(document, item.span(), &name, &names, "variable, parameter or input")?;
+    let index = find_name(item.document, item.span(), &name, &names, "variable, parameter or input")?;
     let (variables, parameters) = (spec.variables.len(), spec.parameters.len());
     Some(match index {
         _ if index < variables => Over::Variable(index),

@@ -1,6 +1,6 @@
 //! Published figures for comparison with the computed ones.
 
-use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::document::{Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
 use abbe_spec::{Diagnostic, Spec};
@@ -48,40 +48,38 @@ pub struct PublishedResidual {
 }
 
 /// Reads every `[[published]]`.
-pub(super) fn read_published(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Vec<Published> {
-    let items =
-        root.get("published").and_then(|item| document.array(&item, "an array of tables [[published]]"));
+pub(super) fn read_published(root: &Section<'_>, spec: &Spec) -> Vec<Published> {
+    let items = root.get("published").and_then(|item| item.array("an array of tables [[published]]"));
     let mut read: Vec<Published> = Vec::new();
     for item in items.into_iter().flatten() {
-        let Some(mut section) = document.section(&item) else { continue };
-        section.name = "a [[published]]".to_owned();
-        let Some(published) = read_one(&section, document, spec) else { continue };
+        let Some(section) = item.named("a [[published]]") else { continue };
+        let Some(published) = read_one(&section, spec) else { continue };
         if read.iter().any(|other| other.subject == published.subject) {
             let message = "duplicate published figure";
-            document.mistake(Diagnostic::new(item.span(), message).help("remove one of them"));
+            root.document.mistake(Diagnostic::new(item.span(), message).help("remove one of them"));
         }
         read.push(published);
     }
     read
 }
 
-fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Published> {
+fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Published> {
     let subject = match (section.get("source"), section.get("combined")) {
         (Some(source), None) => {
-            section.check_keys(&[&keys::OF_A_SOURCE, &keys::PUBLISHED], document);
+            section.check_keys(&[&keys::OF_A_SOURCE, &keys::PUBLISHED]);
             let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
-            let name = document.string(&source);
-            let known =
-                name.filter(|name| find_name(document, source.span(), name, &names, "source").is_some());
-            let metric = section.required("metric", document);
-            let metric = metric.and_then(|item| document.choice(&item, &Metric::ALL));
+            let name = source.string();
+            let known = name
+                .filter(|name| find_name(section.document, source.span(), name, &names, "source").is_some());
+            let metric = section.required("metric");
+            let metric = metric.and_then(|item| item.choice(&Metric::ALL));
             known.zip(metric).map(|(name, metric)| Subject::Source(name, metric))
         }
         (None, Some(combined)) => {
-            section.check_keys(&[&keys::OF_ALL, &keys::PUBLISHED], document);
-            document.choice(&combined, &CombinedFigure::ALL).map(Subject::Combined)
+            section.check_keys(&[&keys::OF_ALL, &keys::PUBLISHED]);
+            combined.choice(&CombinedFigure::ALL).map(Subject::Combined)
         }
-        _ => document.fail(
+        _ => section.document.fail(
             Diagnostic::new(section.span.clone(), "a published figure needs either `source` or `combined`")
                 .label("neither or both are given")
                 .help("give either `source` and `metric`, or `combined`"),
@@ -89,24 +87,24 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
     };
     let mut figure = |key: &str| {
         let item = section.get(key)?;
-        constant(&item, document, Dimension::LENGTH, &format!("the figure `{key}`"))
+        constant(&item, Dimension::LENGTH, &format!("the figure `{key}`"))
     };
     let figures = ["x", "y", "z", "norm"].map(&mut figure);
-    let within = section.required("within", document);
-    let within = within.and_then(|item| positive_length(&item, document));
-    let reference = section.optional_text("reference", document);
+    let within = section.required("within");
+    let within = within.and_then(|item| positive_length(&item));
+    let reference = section.optional_text("reference");
     Some(Published { subject: subject?, figures, within: within?, reference })
 }
 
 /// Reads `[compensated]`.
-pub(super) fn read_compensated(item: &Item<'_>, document: &mut Document) -> Option<PublishedResidual> {
-    let section = document.section(item)?;
-    section.check_keys(&[&keys::COMPENSATED], document);
-    let mut length = |key: &str| {
-        let item = section.required(key, document)?;
-        positive_length(&item, document)
+pub(super) fn read_compensated(item: &Item<'_>) -> Option<PublishedResidual> {
+    let section = item.section()?;
+    section.check_keys(&[&keys::COMPENSATED]);
+    let length = |key: &str| {
+        let item = section.required(key)?;
+        positive_length(&item)
     };
     let (residual, random, total) = (length("residual"), length("random"), length("total"));
-    let reference = section.optional_text("reference", document);
+    let reference = section.optional_text("reference");
     Some(PublishedResidual { residual: residual?, random: random?, total: total?, reference })
 }

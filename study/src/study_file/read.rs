@@ -2,7 +2,6 @@
 
 use abbe_spec::option::STUDY;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Symbol;
@@ -58,36 +57,33 @@ impl Study {
 
     /// Reads a study and checks it against the spec of its manipulator.
     pub fn read(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
-        let text = Arc::clone(&document.text);
         document.length = spec.length;
-        let tables = document.tables(&text);
-        let study = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));
-        document.finish(study)
+        document.read_tables(|root| read(root, spec))
     }
 }
 
-fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Study> {
-    if !document.is_kind(root, "study") {
+fn read(root: &Section<'_>, spec: &Spec) -> Option<Study> {
+    if !root.is_kind("study") {
         return None;
     }
-    root.check_keys(&[&keys::FILE], document);
-    let head = root.required("study", document).and_then(|item| document.section(&item));
-    let region = root.required("workspace", document).and_then(|item| read_region(&item, document, spec));
+    root.check_keys(&[&keys::FILE]);
+    let head = root.required("study").and_then(|item| item.section());
+    let region = root.required("workspace").and_then(|item| read_region(&item, spec));
     let moved = region.as_ref().map_or_else(Vec::new, Region::moving_inputs);
     let region = region.map(|mut region| {
         region.over_ranges(spec);
         region
     });
-    let published = read_published(root, document, spec);
-    let compensated = root.get("compensated").and_then(|item| read_compensated(&item, document));
-    let compensation = root.get("compensation").and_then(|item| compensation::read(&item, document, spec));
-    let allocation = root.get("allocation").map(|item| allocation::read(&item, document, spec));
-    let figures = read_figures(root, document, spec, region.as_ref());
+    let published = read_published(root, spec);
+    let compensated = root.get("compensated").and_then(|item| read_compensated(&item));
+    let compensation = root.get("compensation").and_then(|item| compensation::read(&item, spec));
+    let allocation = root.get("allocation").map(|item| allocation::read(&item, spec));
+    let figures = read_figures(root, spec, region.as_ref());
     let mut head = head?;
     head.name = "[study]".to_owned();
-    head.check_keys(&[&keys::STUDY], document);
-    let title = head.required("title", document).and_then(|item| document.string(&item));
-    let tolerance = head.get("tolerance").and_then(|item| tolerance::read(&item, document));
+    head.check_keys(&[&keys::STUDY]);
+    let title = head.required("title").and_then(|item| item.string());
+    let tolerance = head.get("tolerance").and_then(|item| tolerance::read(&item));
     let tolerance = tolerance.unwrap_or_default();
     let is_known = compensation.is_some() || compensated.is_some() || !spec.covariance.of.is_empty();
     if tolerance.machine == Some(JudgedMachine::Compensated)
@@ -96,21 +92,21 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     {
         let mistake = Diagnostic::new(item.span(), "nothing says what compensation leaves");
         let help = "add [compensation] with a `residual`, or analyze a spec that `abbe identify` wrote";
-        document.mistake(mistake.label("held against the compensated machine").help(help));
+        root.document.mistake(mistake.label("held against the compensated machine").help(help));
     }
     let default = if compensation.is_some() { JudgedMachine::Compensated } else { JudgedMachine::AsBuilt };
     Some(Study {
-        publisher: head.optional_text("publisher", document),
+        publisher: head.optional_text("publisher"),
         tolerance: tolerance.position,
         orientation_tolerance: tolerance.orientation,
         unreachable: tolerance.unreachable,
         stated_tolerances: Vec::new(),
-        criterion: read_criterion(&head, &tolerance, document)?,
+        criterion: read_criterion(&head, &tolerance)?,
         probability: tolerance.probability.unwrap_or(PROBABILITY),
         required_yield: tolerance.required_yield.unwrap_or(PROBABILITY),
         judged: tolerance.machine.unwrap_or(default),
-        changes: read_changes(&head, document, spec, &moved),
-        not_reproducible: head.get("not_reproducible").map_or_else(Vec::new, |item| texts(&item, document)),
+        changes: read_changes(&head, spec, &moved),
+        not_reproducible: head.get("not_reproducible").map_or_else(Vec::new, |item| texts(&item)),
         title: title?,
         region: region?,
         published,
@@ -118,13 +114,13 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         compensation,
         allocation: allocation.unwrap_or_default(),
         figures,
-        file: Some(name_and_hash(document)),
-        files: document.files.clone(),
+        file: Some(name_and_hash(root.document)),
+        files: root.document.files.take(),
     })
 }
 
 /// Reads `criterion`, which must agree with a stated probability or yield.
-fn read_criterion(head: &Section<'_>, tolerance: &Tolerance, document: &mut Document) -> Option<Criterion> {
+fn read_criterion(head: &Section<'_>, tolerance: &Tolerance) -> Option<Criterion> {
     let stated = match tolerance {
         Tolerance { required_yield: Some(_), .. } => Some(("yield", Criterion::Yield)),
         Tolerance { probability: Some(_), .. } => Some(("probability", Criterion::Probability)),
@@ -133,13 +129,13 @@ fn read_criterion(head: &Section<'_>, tolerance: &Tolerance, document: &mut Docu
     let Some(item) = head.get("criterion") else {
         return Some(stated.map_or(Criterion::WorstCase, |(_, criterion)| criterion));
     };
-    let criterion = document.choice(&item, &CRITERIA)?;
+    let criterion = item.choice(&CRITERIA)?;
     match stated {
         // Each machine of a yield keeps the tolerance with a probability.
         Some((key, needed)) if criterion != needed && criterion != Criterion::Yield => {
             let message = format!("the tolerance has a `{key}`, which this criterion ignores");
             let help = format!("write criterion = \"{key}\", or remove `{key}` from the tolerance");
-            document.fail(Diagnostic::new(item.span(), message).label("another criterion").help(help))
+            head.document.fail(Diagnostic::new(item.span(), message).label("another criterion").help(help))
         }
         _ => Some(criterion),
     }
@@ -154,29 +150,29 @@ fn name_and_hash(document: &Document) -> (String, String) {
 
 /// Reads the changes by `set`, `enable` and `disable`. `moved` are the inputs that the workspace
 /// names.
-fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec, moved: &[usize]) -> Changes {
+fn read_changes(head: &Section<'_>, spec: &Spec, moved: &[usize]) -> Changes {
     let mut changes = Changes::default();
-    if let Some(section) = head.get("set").and_then(|item| document.section(&item)) {
+    if let Some(section) = head.get("set").and_then(|item| item.section()) {
         for item in section.items() {
-            let symbol = find_symbol(document, item.key_span.clone(), &item.key, spec);
+            let symbol = find_symbol(head.document, item.key_span.clone(), &item.key, spec);
             let Some((symbol, dimension)) = symbol else { continue };
             if matches!(symbol, Symbol::Input(i) if moved.contains(&i)) {
                 let message = format!("`{}` is both set and moved by the workspace", item.key);
                 let mistake = Diagnostic::new(item.key_span.clone(), message);
-                document.mistake(mistake.help("remove it from `set` or from the workspace"));
+                head.document.mistake(mistake.help("remove it from `set` or from the workspace"));
                 continue;
             }
             let what = format!("the value of `{}`", item.key);
-            if let Some(value) = constant(&item, document, dimension, &what) {
-                changes.set(document, item.span(), spec, symbol, value);
+            if let Some(value) = constant(&item, dimension, &what) {
+                changes.set(head.document, item.span(), spec, symbol, value);
             }
         }
     }
     for (key, on) in [("enable", true), ("disable", false)] {
-        let items = head.get(key).and_then(|item| document.array(&item, "a list of names of sources"));
+        let items = head.get(key).and_then(|item| item.array("a list of names of sources"));
         for item in items.into_iter().flatten() {
-            if let Some(name) = document.string(&item) {
-                changes.switch(document, item.span(), &name, spec, on);
+            if let Some(name) = item.string() {
+                changes.switch(head.document, item.span(), &name, spec, on);
             }
         }
     }
@@ -184,8 +180,8 @@ fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec, moved:
 }
 
 /// Reads a list of texts and joins the lines of each.
-fn texts(item: &Item<'_>, document: &mut Document) -> Vec<String> {
-    let items = document.array(item, "a list of texts").unwrap_or_default();
-    let texts = items.iter().filter_map(|item| document.string(item));
+fn texts(item: &Item<'_>) -> Vec<String> {
+    let items = item.array("a list of texts").unwrap_or_default();
+    let texts = items.iter().filter_map(|item| item.string());
     texts.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
 }

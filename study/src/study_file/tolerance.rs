@@ -34,8 +34,8 @@ pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f
     let mut limits: Vec<(bool, f64)> = Vec::new();
     for text in texts {
         let value = |dimension| {
-            let mut document = Document::new(TOLERANCE, text.as_str());
-            let value = parse_value(&mut document, 0..text.len(), length, dimension, "the tolerance");
+            let document = Document::new(TOLERANCE, text.as_str());
+            let value = parse_value(&document, 0..text.len(), length, dimension, "the tolerance");
             document.finish(value)
         };
         let is_angle = |text: &str| text.contains(char::is_alphabetic);
@@ -55,7 +55,7 @@ pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f
             _ => None,
         };
         if let Some(message) = problem {
-            let mut document = Document::new(TOLERANCE, text.as_str());
+            let document = Document::new(TOLERANCE, text.as_str());
             let [length, angle] = ["0.5 mm", "0.5 mrad"].map(|value| option("tolerance", value));
             let help = format!("write `{length}` for the position, and `{angle}` for the orientation");
             document.mistake(Diagnostic::new(0..text.len(), message).help(help));
@@ -67,17 +67,17 @@ pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f
 }
 
 /// Reads a length, or `{ position = "0.5 mm", orientation = "0.5 mrad", probability = 0.99 }`.
-pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Tolerance> {
+pub(super) fn read(item: &Item<'_>) -> Option<Tolerance> {
     if !item.is_table() {
-        let position = positive_length(item, document)?;
+        let position = positive_length(item)?;
         return Some(Tolerance { position: Some(position), ..Tolerance::default() });
     }
-    let section = document.section(item)?;
-    section.check_keys(&[&keys::TOLERANCE], document);
-    let position = section.get("position").map(|item| positive_length(&item, document));
-    let mut number = |key: &str, most: f64, help: &str| {
+    let section = item.section()?;
+    section.check_keys(&[&keys::TOLERANCE]);
+    let position = section.get("position").map(|item| positive_length(&item));
+    let number = |key: &str, most: f64, help: &str| {
         section.get(key).map(|item| {
-            let value = document.quantity(&item, Dimension::NONE)?;
+            let value = item.quantity(Dimension::NONE)?;
             if value > 0.0 && value < most {
                 return Some(value);
             }
@@ -85,17 +85,18 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Tolerance
                 1.0 => format!("`{key}` must be between 0 and 1"),
                 _ => format!("`{key}` must be positive"),
             };
-            document.fail(Diagnostic::new(item.span(), message).label("out of range").help(help))
+            item.document.fail(Diagnostic::new(item.span(), message).label("out of range").help(help))
         })
     };
     let orientation = number("orientation", f64::INFINITY, "write an angle such as \"0.5 mrad\"");
     let probability = number("probability", 1.0, "write 0.95 for 95 %");
     let required_yield = number("yield", 1.0, "write 0.95 for 95 %");
     let unreachable = number("unreachable", 1.0, "write 0.1 for 10 %");
-    let machine = section.get("machine").and_then(|item| document.choice(&item, &MACHINES));
+    let machine = section.get("machine").and_then(|item| item.choice(&MACHINES));
     if position.is_none() && orientation.is_none() {
         let mistake = Diagnostic::new(item.span(), "this tolerance is empty").label("no limit is given");
-        return document.fail(mistake.help("give `position`, a length, or `orientation`, an angle, or both"));
+        let help = "give `position`, a length, or `orientation`, an angle, or both";
+        return item.document.fail(mistake.help(help));
     }
     // A value that is present but invalid has already been reported.
     let unread = |given: Option<Option<f64>>| given == Some(None);

@@ -100,21 +100,21 @@ impl<'a> Candidates<'a> {
         self
     }
 
-    fn find(&self, document: &mut Document, span: Range<usize>, name: &str) -> Option<usize> {
+    fn find(&self, document: &Document, span: Range<usize>, name: &str) -> Option<usize> {
         let names = self.list.iter().map(|candidate| candidate.name).collect::<Vec<_>>();
         find_name(document, span, name, &names, self.what)
     }
 
     /// Reads a table of axes, `NAME = VALUES` each.
-    pub fn axes(&self, item: &Item<'_>, document: &mut Document) -> Vec<Axis> {
-        let Some(section) = document.section(item) else { return Vec::new() };
+    pub fn axes(&self, item: &Item<'_>) -> Vec<Axis> {
+        let Some(section) = item.section() else { return Vec::new() };
         let mut axes = Vec::new();
         for item in section.items() {
-            let Some(index) = self.find(document, item.key_span.clone(), &item.key) else { continue };
+            let Some(index) = self.find(item.document, item.key_span.clone(), &item.key) else { continue };
             let candidate = &self.list[index];
-            if let Some(mut values) = values(&item, document, candidate.dimension) {
+            if let Some(mut values) = values(&item, candidate.dimension) {
                 candidate.round_to_ends(&mut values);
-                candidate.require_within(&values, &item, document);
+                candidate.require_within(&values, &item);
                 axes.push(Axis { index, values });
             }
         }
@@ -122,16 +122,15 @@ impl<'a> Candidates<'a> {
     }
 
     /// Reads a list of names as indices.
-    pub(super) fn list(&self, item: &Item<'_>, document: &mut Document) -> Vec<usize> {
-        let items =
-            document.array(item, &format!("a list of names, each a {}", self.what)).unwrap_or_default();
+    pub(super) fn list(&self, item: &Item<'_>) -> Vec<usize> {
+        let items = item.array(&format!("a list of names, each a {}", self.what)).unwrap_or_default();
         let mut indices = Vec::new();
         for item in items {
-            let Some(name) = document.string(&item) else { continue };
-            let index = self.find(document, item.span(), &name);
+            let Some(name) = item.string() else { continue };
+            let index = self.find(item.document, item.span(), &name);
             if index.is_some_and(|index| indices.contains(&index)) {
                 let mistake = Diagnostic::new(item.span(), format!("duplicate name `{name}`"));
-                document.mistake(mistake.help("remove one of them"));
+                item.document.mistake(mistake.help("remove one of them"));
             }
             indices.extend(index);
         }
@@ -154,7 +153,7 @@ impl Candidate<'_> {
 
     /// Reports values outside the limits or the range as a mistake, because the machine does not
     /// work there.
-    fn require_within(&self, values: &[f64], item: &Item<'_>, document: &mut Document) {
+    fn require_within(&self, values: &[f64], item: &Item<'_>) {
         let (what, [lower, upper]) = self.within;
         let Some(outside) = values.iter().find(|value| !(lower..=upper).contains(*value)) else { return };
         let message = format!("`{}` exceeds its {what}", self.name);
@@ -164,7 +163,7 @@ impl Candidate<'_> {
             self.show(lower),
             self.show(upper)
         );
-        document.mistake(Diagnostic::new(item.span(), message).label(label).help(help));
+        item.document.mistake(Diagnostic::new(item.span(), message).label(label).help(help));
     }
 
     fn show(&self, value: f64) -> String {
@@ -176,42 +175,42 @@ impl Candidate<'_> {
 }
 
 /// Reads `[1, 2, 5]`, `{ from = 0, to = 10, count = 3 }` or `{ from = 0, to = 10, step = 5 }`.
-pub(super) fn values(item: &Item<'_>, document: &mut Document, dimension: Dimension) -> Option<Vec<f64>> {
+pub(super) fn values(item: &Item<'_>, dimension: Dimension) -> Option<Vec<f64>> {
     let what = format!("a value of `{}`", item.key);
     if !item.is_table() {
-        let items = document.array(item, "a list of values, or { from, to, count } or { from, to, step }")?;
-        let values = items.iter().filter_map(|item| constant(item, document, dimension, &what));
+        let items = item.array("a list of values, or { from, to, count } or { from, to, step }")?;
+        let values = items.iter().filter_map(|item| constant(item, dimension, &what));
         let values = values.collect::<Vec<_>>();
         if items.is_empty() {
             let mistake = Diagnostic::new(item.span(), format!("`{}` has no values", item.key));
-            document.mistake(mistake.help("give at least one value"));
+            item.document.mistake(mistake.help("give at least one value"));
         }
         return (values.len() == items.len() && !items.is_empty()).then_some(values);
     }
-    let section = document.table(item, format!("the range of `{}`", item.key), &[&keys::VALUES])?;
-    let mut end = |key: &str| {
-        let end = section.required(key, document)?;
-        constant(&end, document, dimension, &what)
+    let section = item.table(format!("the range of `{}`", item.key), &[&keys::VALUES])?;
+    let end = |key: &str| {
+        let end = section.required(key)?;
+        constant(&end, dimension, &what)
     };
     let (from, to) = (end("from"), end("to"));
     match (section.get("count"), section.get("step")) {
         (Some(counted), None) => {
-            let count = count(&counted, VALUES, document)?;
+            let count = count(&counted, VALUES)?;
             Some(sampling::grid([from?, to?], count))
         }
         (None, Some(item)) => {
-            let step = constant(&item, document, dimension, "a step")?;
-            stepped([from?, to?], step, &item, document)
+            let step = constant(&item, dimension, "a step")?;
+            stepped([from?, to?], step, &item)
         }
         _ => {
             let message = format!("{} needs either `count` or `step`", section.name);
-            document.refuse(section.span.clone(), message, "add `count`, such as `count = 5`")
+            item.document.refuse(section.span.clone(), message, "add `count`, such as `count = 5`")
         }
     }
 }
 
 /// Returns equal steps from one end to the other, both ends included.
-fn stepped([from, to]: [f64; 2], step: f64, item: &Item<'_>, document: &mut Document) -> Option<Vec<f64>> {
+fn stepped([from, to]: [f64; 2], step: f64, item: &Item<'_>) -> Option<Vec<f64>> {
     let steps = ((to - from) / step).abs();
     let mistake = if step <= 0.0 {
         "a step must be positive".to_owned()
@@ -222,5 +221,5 @@ fn stepped([from, to]: [f64; 2], step: f64, item: &Item<'_>, document: &mut Docu
     } else {
         return Some(sampling::grid([from, to], steps.round() as usize + 1));
     };
-    document.refuse(item.span(), mistake, "or write `count`, which includes both ends")
+    item.refuse(mistake, "or write `count`, which includes both ends")
 }

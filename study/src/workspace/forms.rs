@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use abbe::analysis::{Axis, BaseBox, Presentation, ToolOrientation};
-use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::document::{Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::{Diagnostic, Spec};
 
@@ -21,30 +21,29 @@ const APPROACHES: usize = 10_000;
 
 /// Reads `[workspace]`: one of the forms, and `inputs` with their own values. Inputs without a name
 /// there stay nominal.
-pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
-    let section = document.table(item, "[workspace]", &[&WORKSPACE, &BESIDE])?;
+pub fn read_region(item: &Item<'_>, spec: &Spec) -> Option<Region> {
+    let section = item.table("[workspace]", &[&WORKSPACE, &BESIDE])?;
     let mut forms = section.items().filter(|item| WORKSPACE.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
         let forms = WORKSPACE.names().map(|form| format!("`{form}`")).collect::<Vec<_>>();
         let help = format!("give one of {}", forms.join(", "));
         let mistake = Diagnostic::new(section.span.clone(), "a workspace needs exactly one form");
-        return document.fail(mistake.label("none or several are given").help(help));
+        return item.document.fail(mistake.label("none or several are given").help(help));
     };
-    let mut region = read_form(&form, document, spec)?;
+    let mut region = read_form(&form, spec)?;
     if let Some(item) = section.get("inputs") {
-        for axis in Candidates::inputs(spec).axes(&item, document) {
+        for axis in Candidates::inputs(spec).axes(&item) {
             if region.moving_inputs().contains(&axis.index) {
                 let message = format!("`{}` is moved twice", spec.inputs[axis.index].name);
                 let help = format!("remove it from `inputs` or from `{}`", form.key);
-                document.mistake(Diagnostic::new(item.key_span.clone(), message).help(help));
+                item.document.mistake(Diagnostic::new(item.key_span.clone(), message).help(help));
             }
             region.inputs.push(axis);
         }
     }
     if region.count().is_none() {
         let message = format!("this workspace has more than {LARGEST} configurations");
-        return document.refuse(
-            form.key_span.clone(),
+        return form.refuse_key(
             message,
             "use fewer values per axis, or random samples: `joints = { samples = 100000 \
                     }`",
@@ -54,29 +53,29 @@ pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
 }
 
 /// Reads the form with this key.
-fn read_form(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
+fn read_form(form: &Item<'_>, spec: &Spec) -> Option<Region> {
     if form.key == "grid" {
-        return grid(form, document, spec);
+        return grid(form, spec);
     }
-    let section = document.section(form)?;
+    let section = form.section()?;
     match form.key.as_str() {
-        "presented" => presented(&section, document, spec).map(Form::Presented).map(Region::new),
-        "box" => base_box(&section, document, spec).map(Form::Box).map(Region::new),
-        "path" => path::read(&section, document, spec).map(Form::Path).map(Region::new),
-        "random" => samples(&section, document, spec, true),
-        _ => samples(&section, document, spec, false),
+        "presented" => presented(&section, spec).map(Form::Presented).map(Region::new),
+        "box" => base_box(&section, spec).map(Form::Box).map(Region::new),
+        "path" => path::read(&section, spec).map(Form::Path).map(Region::new),
+        "random" => samples(&section, spec, true),
+        _ => samples(&section, spec, false),
     }
 }
 
 /// Reads `[workspace.grid]`: values of variables, or of passive variables, and inputs.
-fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
+fn grid(item: &Item<'_>, spec: &Spec) -> Option<Region> {
     let is_passive = |item: &Item<'_>| spec.passive.iter().any(|passive| passive.name == item.key);
-    let of_platform = document.section(item)?.items().any(|item| is_passive(&item));
+    let of_platform = item.section()?.items().any(|item| is_passive(&item));
     let (candidates, count) = match of_platform {
         true => (Candidates::passive_and_inputs(spec), spec.passive.len()),
         false => (Candidates::variables_and_inputs(spec), spec.variables.len()),
     };
-    let all = candidates.axes(item, document);
+    let all = candidates.axes(item);
     let (axes, inputs): (Vec<Axis>, Vec<Axis>) = all.into_iter().partition(|axis| axis.index < count);
     let form = match of_platform {
         false => Form::Grid(axes),
@@ -86,7 +85,7 @@ fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region>
                 let message = "poses of a platform need legs that follow from them";
                 let help = "name the commanded variables in the grid instead";
                 let mistake = Diagnostic::new(item.key_span.clone(), message);
-                return document.fail(mistake.label(reason).help(help));
+                return item.document.fail(mistake.label(reason).help(help));
             }
         },
     };
@@ -95,57 +94,52 @@ fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region>
 }
 
 /// Reads `[workspace.presented]`: tool points, each moved to one point in space.
-fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Presentation> {
-    section.check_keys(&[&keys::PRESENTED], document);
-    let point = section.required("point", document).and_then(|item| point(&item, document));
+fn presented(section: &Section<'_>, spec: &Spec) -> Option<Presentation> {
+    section.check_keys(&[&keys::PRESENTED]);
+    let point = section.required("point").and_then(|item| point(&item));
     let tool_points = section.get("tool_points");
-    let tool_points = tool_points.map(|item| Candidates::parameters(spec).axes(&item, document));
+    let tool_points = tool_points.map(|item| Candidates::parameters(spec).axes(&item));
     let variables = Candidates::variables(spec).unlimited();
-    let approaches = section.get("approaches").map(|item| (variables.axes(&item, document), item.span()));
+    let approaches = section.get("approaches").map(|item| (variables.axes(&item), item.span()));
     let (approaches, span) = approaches.unwrap_or_default();
-    let solved = section.required("solve", document).map(|item| variables.list(&item, document))?;
+    let solved = section.required("solve").map(|item| variables.list(&item))?;
     if let Some(both) = approaches.iter().find(|axis| solved.contains(&axis.index)) {
-        document.mistake(held_and_solved(&spec.variables[both.index].name, span));
+        section.document.mistake(held_and_solved(&spec.variables[both.index].name, span));
     }
     Some(Presentation { point: point?, tool_points: tool_points.unwrap_or_default(), approaches, solved })
 }
 
-fn point(item: &Item<'_>, document: &mut Document) -> Option<[f64; 3]> {
-    let entries: [Item<'_>; 3] = document.entries(item, "three lengths: x, y and z in F_0")?;
-    let [x, y, z] =
-        entries.map(|entry| constant(&entry, document, Dimension::LENGTH, "a coordinate of the point"));
+fn point(item: &Item<'_>) -> Option<[f64; 3]> {
+    let entries: [Item<'_>; 3] = item.entries("three lengths: x, y and z in F_0")?;
+    let [x, y, z] = entries.map(|entry| constant(&entry, Dimension::LENGTH, "a coordinate of the point"));
     Some([x?, y?, z?])
 }
 
 /// Reads `[workspace.box]`: a grid of points in `F_0`. All variables are solved for unless `solve`
 /// lists some.
-fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<BaseBox> {
-    section.check_keys(&[&keys::BOX], document);
+fn base_box(section: &Section<'_>, spec: &Spec) -> Option<BaseBox> {
+    section.check_keys(&[&keys::BOX]);
     let points = ["x", "y", "z"].map(|axis| {
-        let item = section.required(axis, document)?;
-        values(&item, document, Dimension::LENGTH)
+        let item = section.required(axis)?;
+        values(&item, Dimension::LENGTH)
     });
     let free = Some(vec![ToolOrientation::Free]);
-    let orientations = section.get("orientation").map_or(free, |item| orientations(&item, document));
+    let orientations = section.get("orientation").map_or(free, |item| orientations(&item));
     let variables = Candidates::variables(spec);
     let approaches = section.get("approaches");
-    let held = approaches.as_ref().map_or_else(Vec::new, |item| variables.axes(item, document));
+    let held = approaches.as_ref().map_or_else(Vec::new, |item| variables.axes(item));
     let is_held = |i: &usize| held.iter().any(|axis| axis.index == *i);
     let solved = match section.get("solve") {
-        Some(item) => variables.list(&item, document),
+        Some(item) => variables.list(&item),
         None => (0..spec.variables.len()).filter(|i| !is_held(i)).collect(),
     };
     if let (Some(both), Some(item)) = (solved.iter().find(|i| is_held(i)), approaches) {
-        document.mistake(held_and_solved(&spec.variables[*both].name, item.span()));
+        section.document.mistake(held_and_solved(&spec.variables[*both].name, item.span()));
     }
     let combinations = held.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul);
     if combinations > APPROACHES {
         let message = format!("`approaches` has {combinations} combinations, the maximum is {APPROACHES}");
-        return document.refuse(
-            section.span.clone(),
-            message,
-            "use fewer values, or solve for the variables",
-        );
+        return section.refuse(message, "use fewer values, or solve for the variables");
     }
     let [x, y, z] = points;
     Some(BaseBox { points: [x?, y?, z?], orientations: orientations?, approaches: held, solved })
@@ -158,25 +152,25 @@ fn held_and_solved(name: &str, span: Range<usize>) -> Diagnostic {
 
 /// Reads `[workspace.joints]` or `[workspace.random]`: samples within the limits. All variables
 /// move unless `moved` lists some.
-fn samples(section: &Section<'_>, document: &mut Document, spec: &Spec, random: bool) -> Option<Region> {
+fn samples(section: &Section<'_>, spec: &Spec, random: bool) -> Option<Region> {
     let known = [&keys::SAMPLES, &keys::RANDOM];
-    section.check_keys(if random { &known } else { &known[..1] }, document);
+    section.check_keys(if random { &known } else { &known[..1] });
     let variables = spec.variables.len();
     let moved = match section.get("moved") {
-        Some(item) => Candidates::variables_and_inputs(spec).list(&item, document),
+        Some(item) => Candidates::variables_and_inputs(spec).list(&item),
         None => (0..variables).collect(),
     };
     let (moved, inputs): (Vec<usize>, Vec<usize>) = moved.into_iter().partition(|i| *i < variables);
     let sampled_inputs: Vec<usize> = inputs.into_iter().map(|i| i - variables).collect();
     if let Some(input) = sampled_inputs.iter().map(|i| &spec.inputs[*i]).find(|input| !has_range(input)) {
         let help = "add one in the spec: `range = [LOWER, UPPER]`";
-        return document.refuse(section.span.clone(), format!("`{}` has no range", input.name), help);
+        return section.refuse(format!("`{}` has no range", input.name), help);
     }
     let seed = match section.get("seed").filter(|_| random) {
-        Some(item) => Some(whole(&item, [0, LARGEST], document)? as u64),
+        Some(item) => Some(whole(&item, [0, LARGEST])? as u64),
         None => random.then_some(0),
     };
-    let samples = section.required("samples", document)?;
-    let count = count(&samples, LARGEST, document)?;
+    let samples = section.required("samples")?;
+    let count = count(&samples, LARGEST)?;
     Some(Region { sampled_inputs, ..Region::new(Form::Samples { moved, count, seed }) })
 }

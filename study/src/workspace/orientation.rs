@@ -2,7 +2,7 @@
 
 use abbe::analysis::ToolOrientation;
 use abbe_spec::diagnostic::Diagnostic;
-use abbe_spec::document::{Document, Item};
+use abbe_spec::document::Item;
 use abbe_spec::expr::Dimension;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
@@ -15,37 +15,33 @@ use crate::number;
 const PERPENDICULAR: f64 = 1e-3;
 
 /// Reads one orientation, or a list of them.
-pub(super) fn orientations(item: &Item<'_>, document: &mut Document) -> Option<Vec<ToolOrientation>> {
+pub(super) fn orientations(item: &Item<'_>) -> Option<Vec<ToolOrientation>> {
     if !item.is_list() {
-        return orientation(item, document).map(|one| vec![one]);
+        return orientation(item).map(|one| vec![one]);
     }
     let items = item.list();
-    let read: Vec<ToolOrientation> = items.iter().filter_map(|item| orientation(item, document)).collect();
+    let read: Vec<ToolOrientation> = items.iter().filter_map(|item| orientation(item)).collect();
     if items.is_empty() {
-        return document.refuse(
-            item.span(),
-            "no orientation is given",
-            "give at least one, such as \"down\"",
-        );
+        return item.refuse("no orientation is given", "give at least one, such as \"down\"");
     }
     (read.len() == items.len()).then_some(read)
 }
 
-fn orientation(item: &Item<'_>, document: &mut Document) -> Option<ToolOrientation> {
+fn orientation(item: &Item<'_>) -> Option<ToolOrientation> {
     if !item.is_table() {
-        return document.choice(item, &ORIENTATIONS);
+        return item.choice(&ORIENTATIONS);
     }
-    let section = document.table(item, "the orientation", &[&keys::ORIENTATION])?;
+    let section = item.table("the orientation", &[&keys::ORIENTATION])?;
     let given: Vec<Item<'_>> = section.items().collect();
     if let Some(item) = section.get("quaternion").filter(|_| given.len() == 1) {
-        let [w, x, y, z] = vector(&item, document)?;
+        let [w, x, y, z] = vector(&item)?;
         let quaternion = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
         return Some(ToolOrientation::Axes(axes(quaternion.to_rotation_matrix())));
     }
     let mut directions = Vec::new();
     for (axis, key) in ["x", "y", "z"].into_iter().enumerate() {
         if let Some(item) = section.get(key) {
-            directions.push((axis, Vector3::from(vector::<3>(&item, document)?)));
+            directions.push((axis, Vector3::from(vector::<3>(&item)?)));
         }
     }
     match (&directions[..], section.get("quaternion")) {
@@ -53,7 +49,8 @@ fn orientation(item: &Item<'_>, document: &mut Document) -> Option<ToolOrientati
         ([(first, a), (second, b)], None) => {
             if a.dot(b).abs() > PERPENDICULAR {
                 let mistake = Diagnostic::new(item.span(), "these axes of the tool are not perpendicular");
-                return document.fail(mistake.help("give one axis alone, about which the tool may turn"));
+                let help = "give one axis alone, about which the tool may turn";
+                return item.document.fail(mistake.help(help));
             }
             let mut columns = [Vector3::zeros(); 3];
             columns[*first] = *a;
@@ -64,15 +61,15 @@ fn orientation(item: &Item<'_>, document: &mut Document) -> Option<ToolOrientati
         }
         _ => {
             let help = "give one or two of `x`, `y` and `z`, or a `quaternion`";
-            document.refuse(item.span(), "an orientation needs one or two axes, or a quaternion", help)
+            item.refuse("an orientation needs one or two axes, or a quaternion", help)
         }
     }
 }
 
 /// Reads numbers, scaled to a vector of length 1.
-fn vector<const N: usize>(item: &Item<'_>, document: &mut Document) -> Option<[f64; N]> {
-    let entries: [Item<'_>; N] = document.entries(item, &format!("{N} numbers"))?;
-    let read = entries.map(|entry| constant(&entry, document, Dimension::NONE, "a component of the vector"));
+fn vector<const N: usize>(item: &Item<'_>) -> Option<[f64; N]> {
+    let entries: [Item<'_>; N] = item.entries(&format!("{N} numbers"))?;
+    let read = entries.map(|entry| constant(&entry, Dimension::NONE, "a component of the vector"));
     let mut vector = [0.0; N];
     for (value, read) in vector.iter_mut().zip(read) {
         *value = read?;
@@ -80,7 +77,7 @@ fn vector<const N: usize>(item: &Item<'_>, document: &mut Document) -> Option<[f
     let norm = vector.iter().fold(0.0, |norm: f64, value| norm.hypot(*value));
     if norm == 0.0 {
         let mistake = Diagnostic::new(item.span(), format!("`{}` has no direction", item.key));
-        return document.fail(mistake.label("all are 0").help("give at least one number other than 0"));
+        return item.document.fail(mistake.label("all are 0").help("give at least one number other than 0"));
     }
     Some(vector.map(|value| value / norm))
 }

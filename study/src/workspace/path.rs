@@ -110,26 +110,26 @@ impl Path {
 }
 
 /// Reads `file`, relative to the folder of the study.
-pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Path> {
-    section.check_keys(&[&keys::PATH], document);
-    let item = section.required("file", document)?;
-    let file = document.string(&item)?;
-    let folder = path::Path::new(&document.path).parent().unwrap_or(path::Path::new(""));
+pub(super) fn read(section: &Section<'_>, spec: &Spec) -> Option<Path> {
+    section.check_keys(&[&keys::PATH]);
+    let item = section.required("file")?;
+    let file = item.string()?;
+    let folder = path::Path::new(&section.document.path).parent().unwrap_or(path::Path::new(""));
     let path = folder.join(&file);
-    let found = match shipped(document, &file) {
+    let found = match shipped(section.document, &file) {
         Some(text) => read_configurations(text.as_bytes(), spec),
         None => {
-            let input = document.named_file(&path, LARGEST_FILE);
+            let input = section.document.named_file(&path, LARGEST_FILE);
             let input = input.map_err(|error| describe_error(&error.into()));
             let found = input.and_then(|input| read_configurations(input, spec));
-            document.files.push(path);
+            section.document.files.borrow_mut().push(path);
             found
         }
     };
     let found = found.map_err(|message| {
         let message = format!("{}: {message}", file.escape_debug());
         let help = "write a heading such as `d1 (mm),q4 (deg)`, then one configuration per line";
-        document.mistake(Diagnostic::new(item.span(), message).label("read by this key").help(help));
+        section.document.mistake(Diagnostic::new(item.span(), message).label("read by this key").help(help));
     });
     let (columns, configurations) = found.ok()?;
     Some(Path { file, columns, configurations })
@@ -227,20 +227,21 @@ fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
     let all = variables.chain(parameters).chain(inputs).collect::<Vec<_>>();
     let names = all.iter().map(|(name, ..)| *name).collect::<Vec<_>>();
 
-    let mut document = Document::new("", name);
+    let document = Document::new("", name);
     let what = if spec.inputs.is_empty() { "variable or parameter" } else { "variable, parameter or input" };
-    let found = find_name(&mut document, 0..name.len(), name, &names, what);
+    let found = find_name(&document, 0..name.len(), name, &names, what);
     let (_, symbol, dimension) = found.map(|found| all[found]).ok_or_else(|| mistake(&document))?;
     let text = format!("1 {}", unit.unwrap_or_default());
-    let mut document = Document::new("", text.as_str());
+    let document = Document::new("", text.as_str());
     let what = format!("the unit of the column `{name}`");
-    let unit = parse_value(&mut document, 0..text.trim_end().len(), spec.length, dimension, &what);
+    let unit = parse_value(&document, 0..text.trim_end().len(), spec.length, dimension, &what);
     Ok(Column { symbol, unit: unit.ok_or_else(|| mistake(&document))? })
 }
 
 /// Returns the first mistake of a document in one line.
 fn mistake(document: &Document) -> String {
-    let mistake = document.found.first();
+    let found = document.found.borrow();
+    let mistake = found.first();
     let message = mistake.map(|mistake| match &mistake.help {
         Some(help) => format!("{}; {help}", mistake.message),
         None => mistake.message.clone(),

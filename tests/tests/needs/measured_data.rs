@@ -123,10 +123,9 @@ fn halves() -> Result<(), Missing> {
         (found.x, deviations)
     };
     let ((x, own), (y, other)) = (half(0), half(1));
-    let mut room = model.scratch();
     let mut squares = 0.0;
     for (row, (a, b)) in random.iter().zip(own.iter().zip(&other)) {
-        let [p, q] = [&x, &y].map(|x| model.pose(&mut room, row, x).unwrap().apply(target(&model, x)));
+        let [p, q] = [&x, &y].map(|x| model.at(x).pose(row).unwrap().apply(target(&model, x)));
         let apart = p.iter().zip(q).map(|(p, q)| (p - q).powi(2)).sum::<f64>();
         squares += apart / (a * a + b * b);
     }

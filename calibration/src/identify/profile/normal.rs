@@ -87,7 +87,7 @@ impl Normal {
             let mut part = Part::new(size);
             let (mut block, mut columns) = (Block::new(size), vec![0.0; size]);
             let mut functions = vec![0.0; size];
-            let mut scratch = extended.scratch();
+            let mut extended = extended.at(&x);
             for (i, row) in data.iter().enumerate() {
                 if folds.fold[i] as usize != fold || fit.weights[i] < REJECTED {
                     continue;
@@ -96,7 +96,7 @@ impl Normal {
                 for (joint, start) in joints.iter().zip(&starts) {
                     joint.fill(row.q[joint.variable], &mut functions[*start..]);
                 }
-                extended.linear(&mut scratch, row, &x, |residual, derivatives| {
+                extended.linear(row, |residual, derivatives| {
                     for (column, derivative) in columns.iter_mut().zip(&derivatives[..kept.len()]) {
                         *column = weight * derivative;
                     }

@@ -67,14 +67,14 @@ fn measured(
     let all: Vec<Unknown> =
         model.unknowns.iter().copied().chain(joints().iter().map(|joint| joint.error)).collect();
     let model = model.with(all);
-    let (mut scratch, normal) = (model.scratch(), rand_distr::Normal::new(0.0, NOISE).unwrap());
+    let normal = rand_distr::Normal::new(0.0, NOISE).unwrap();
     let row = |line: usize| {
         let q: Vec<f64> = (0..6).map(|_| random.random_range(-range..range)).collect();
         let errors = waves.iter().zip(&q).map(|(waves, q)| error_of(waves, *q));
         let x: Vec<f64> = constants.iter().copied().chain(errors).collect();
         let nothing = Measurement::Points(vec![None].into());
         let planned = Observation::new(line as u64, q, Vec::new(), nothing);
-        let truth = model.pose(&mut scratch, &planned, &x).unwrap().apply(model.targets[0]);
+        let truth = model.at(&x).pose(&planned).unwrap().apply(model.targets[0]);
         let point = truth.map(|value| value + random.sample(normal));
         (Observation { measured: Measurement::Points(vec![Some(point)].into()), ..planned }, truth)
     };
@@ -111,12 +111,11 @@ fn unseen(profiles: &Profiles, data: &[Observation], test: &[Observation], truth
         profiles.profiles.iter().map(|one| one.value(row.q[one.joint.variable])).collect()
     };
     // Rows with the effect of the profiles removed: one Gauss-Newton step at such small errors.
-    let mut scratch = extended.scratch();
     let zero = vec![0.0; model.unknowns.len()];
     let corrected: Vec<Observation> = data
         .iter()
         .map(|row| {
-            let mut at = |x: &[f64]| extended.pose(&mut scratch, row, x).unwrap().apply(model.targets[0]);
+            let at = |x: &[f64]| extended.at(x).pose(row).unwrap().apply(model.targets[0]);
             let with: Vec<f64> = zero.iter().copied().chain(known(row)).collect();
             let without: Vec<f64> = zero.iter().copied().chain(known(row).iter().map(|_| 0.0)).collect();
             let (with, without) = (at(&with), at(&without));
@@ -133,8 +132,9 @@ fn unseen(profiles: &Profiles, data: &[Observation], test: &[Observation], truth
     for (row, truth) in test.iter().zip(truth) {
         let x: Vec<f64> = fit.x.iter().copied().chain(known(row)).collect();
         let at = |k: &usize, axis: usize, rows: &[(f64, Vec<f64>)]| NOISE * rows[axis].1[*k];
-        let rows = extended.linearized(&mut scratch, row, &x).unwrap();
-        let found = extended.pose(&mut scratch, row, &x).unwrap().apply(core::array::from_fn(|i| {
+        let mut extended = extended.at(&x);
+        let rows = extended.linearized(row).unwrap();
+        let found = extended.pose(row).unwrap().apply(core::array::from_fn(|i| {
             let target = model.unknowns.iter().position(|one| *one == Unknown::Target(0, i)).unwrap();
             model.targets[0][i] + fit.x[target]
         }));

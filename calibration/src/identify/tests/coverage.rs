@@ -49,9 +49,9 @@ fn drawn(
     let mut normal = |sigma: f64| random.sample(rand_distr::Normal::new(0.0, sigma).unwrap());
     let count = Configurations::new(list).count;
     let shared: Vec<[f64; 3]> = (0..count).map(|_| [0; 3].map(|_| normal(own))).collect();
-    let mut scratch = model.scratch();
+    let mut at = model.at(&truth);
     let measured = list.iter().map(|row| {
-        let pose = model.pose(&mut scratch, row, &truth).unwrap();
+        let pose = at.pose(row).unwrap();
         let shift = shared[row.configuration as usize];
         let points = model.targets.iter().map(|target| {
             let at = pose.apply(*target);

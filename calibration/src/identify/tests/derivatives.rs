@@ -41,7 +41,7 @@ fn derivatives_are_those_of_the_exact_chain() {
     let pose = Model::ideal(&Pps, vec![[0.0; 3]], EXACT);
     let pose = pose.with(pose.constants(true));
     // A measured pose near the model's keeps the rotation vector away from half a turn.
-    let near = pose.pose(&mut pose.scratch(), &observation(&q, 0), &vec![0.0; pose.unknowns.len()]).unwrap();
+    let near = pose.at(&vec![0.0; pose.unknowns.len()]).pose(&observation(&q, 0)).unwrap();
     differences(&pose, &Observation { measured: Measurement::Pose(Box::new(near)), ..observation(&q, 0) });
 }
 
@@ -66,7 +66,7 @@ fn placements_belong_to_their_station() {
         };
         let seen = [0, 1, 2, 3].map(|target| is_seen(Unknown::Target(target, 0)));
         assert_eq!(seen, [station == 0, station == 0, station == 1, station == 1]);
-        let near = poses.pose(&mut poses.scratch(), &row, &vec![0.0; poses.unknowns.len()]).unwrap();
+        let near = poses.at(&vec![0.0; poses.unknowns.len()]).pose(&row).unwrap();
         differences(&poses, &Observation { measured: Measurement::Pose(Box::new(near)), ..row });
     }
 }
@@ -203,7 +203,7 @@ fn the_chain_is_that_of_equation_6() {
     let mut transforms = vec![Pose::IDENTITY; 7];
     Pps.transforms(&q, &model.s, &mut transforms).unwrap();
     let Pose(expected) = real_pose(&transforms, &errors);
-    let Pose(found) = model.pose(&mut model.scratch(), &observation(&q, 1), &x).unwrap();
+    let Pose(found) = model.at(&x).pose(&observation(&q, 1)).unwrap();
     for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
         assert!((found - expected).abs() < 1e-10);
     }

@@ -56,7 +56,7 @@ fn by_hand(model: &Model, part: &[Observation], known: &Identifiable, model_erro
     let arm = abbe_analysis::sampling::arm_length(&Puma, &model.s).unwrap();
     let mut information = nalgebra::DMatrix::zeros(p, p);
     for seen in part {
-        let seen = model.nominally_seen(&mut model.scratch(), seen).unwrap();
+        let seen = model.at(&vec![0.0; model.unknowns.len()]).nominally_seen(seen).unwrap();
         let (_, rows) = residuals(model, &seen, &vec![0.0; model.unknowns.len()]);
         let n = rows.len();
         let pose = matches!(seen.measured, Measurement::Pose(_));
@@ -92,7 +92,9 @@ fn the_predicted_deviation_is_found() {
         let list = sampled(&Puma, &[0, 1, 2, 3, 4, 5], 200, points);
         let zero = vec![0.0; model.unknowns.len()];
         let expect = |list: &[Observation]| -> Vec<Observation> {
-            list.iter().map(|seen| model.nominally_seen(&mut model.scratch(), seen).unwrap()).collect()
+            list.iter()
+                .map(|seen| model.at(&vec![0.0; model.unknowns.len()]).nominally_seen(seen).unwrap())
+                .collect()
         };
         let list = expect(&list);
         let known = identifiable(&model, &list, &zero).unwrap();
@@ -119,9 +121,9 @@ fn the_predicted_deviation_is_found() {
             let data = simulate(&model.with(Vec::new()), &chosen, &chance).unwrap();
             let fit = fit(&model, &data, &Options::default()).unwrap();
             for place in &places {
-                let (mut at, mut is) = (model.scratch(), model.scratch());
-                let wanted = model.pose(&mut at, place, &zero).unwrap().position();
-                let pose = model.pose(&mut is, place, &fit.x).unwrap();
+                let mut at = model.at(&zero);
+                let wanted = at.pose(place).unwrap().position();
+                let pose = model.at(&fit.x).pose(place).unwrap();
                 // The unknown position of a single target belongs to the tool point.
                 let target = |axis: usize| {
                     let at = |unknown: &Unknown| *unknown == Unknown::Target(0, axis);

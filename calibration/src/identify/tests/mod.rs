@@ -72,7 +72,7 @@ fn residuals(model: &Model, observation: &Observation, x: &[f64]) -> (Vec<f64>, 
         values.push(residual);
         rows.push(row.to_vec());
     };
-    model.linear(&mut model.scratch(), observation, x, take).unwrap();
+    model.at(x).linear(observation, take).unwrap();
     (values, rows)
 }
 
@@ -85,9 +85,9 @@ fn measured(
     random: &mut Xoshiro256PlusPlus,
 ) -> Vec<Observation> {
     let normal = rand_distr::Normal::new(0.0, noise).unwrap();
-    let mut scratch = model.scratch();
+    let mut at = model.at(x);
     let see = |planned: &Observation| {
-        let pose = model.pose(&mut scratch, planned, x).unwrap();
+        let pose = at.pose(planned).unwrap();
         let point = |target: &[f64; 3]| {
             let at = pose.apply(*target);
             Some(at.map(|coordinate| coordinate + random.sample(normal)))

@@ -51,12 +51,11 @@ fn machine(between: f64, seed: u64) -> (Vec<f64>, Vec<f64>, f64) {
     let found = fit(&model, &data, &options).unwrap();
     let component = between_stations(&model, &data, &found, &priors).unwrap().unwrap();
     let used: Vec<Observation> = list.iter().skip(2).step_by(6).cloned().collect();
-    let mut scratch = model.scratch();
-    let mut point = |row: &Observation, x: &[f64]| {
+    let point = |row: &Observation, x: &[f64]| {
         let [dx, dy, dz] = [0, 1, 2]
             .map(|axis| x[model.unknowns.iter().position(|one| *one == Unknown::Target(0, axis)).unwrap()]);
         let [x0, y0, z0] = model.targets[0];
-        model.pose(&mut scratch, row, x).unwrap().apply([x0 + dx, y0 + dy, z0 + dz])
+        model.at(x).pose(row).unwrap().apply([x0 + dx, y0 + dy, z0 + dz])
     };
     let off: Vec<f64> = used
         .iter()

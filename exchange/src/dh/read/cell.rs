@@ -55,7 +55,7 @@ impl Cells<'_> {
         column: &Column,
         cell: Span,
         is_length: bool,
-        document: &mut Document,
+        document: &Document,
     ) -> Option<f64> {
         let whole = document.text.clone();
         let text = &whole[cell.clone()];
@@ -91,7 +91,7 @@ impl Cells<'_> {
                 let (what, unit) = if is_length { ("length", "mm") } else { ("angle", "deg") };
                 // Reported once, not for every cell.
                 let message = format!("the unit of this {what} is unknown");
-                if document.found.iter().all(|mistake| mistake.message != message) {
+                if document.found.borrow().iter().all(|mistake| mistake.message != message) {
                     let help = format!(
                         "give it: `{units}`, or both as in `{UNITS_MM_DEG}`; or write it \
                          in the heading: `{} ({unit})`",
@@ -116,7 +116,7 @@ impl Cells<'_> {
     }
 
     /// Reads a cell of theta or d.
-    pub(super) fn amount(&self, row: &[Span], quantity: Quantity, document: &mut Document) -> Option<Amount> {
+    pub(super) fn amount(&self, row: &[Span], quantity: Quantity, document: &Document) -> Option<Amount> {
         let Some((column, cell)) = self.cell(row, quantity) else { return Some(Amount::default()) };
         let is_length = quantity == Quantity::D;
         let whole = document.text.clone();

@@ -29,7 +29,7 @@ pub(super) struct Columns {
 
 impl Columns {
     /// Reads the heading; the four numbers must be there, each once.
-    pub(super) fn read(text: &Text, convention: DhConvention, document: &mut Document) -> Option<Self> {
+    pub(super) fn read(text: &Text, convention: DhConvention, document: &Document) -> Option<Self> {
         let whole = document.text.clone();
         let span = text.heading.first()?.start..text.heading.last()?.end;
         let mut columns = Self { known: Vec::new(), ignored: Vec::new(), span };

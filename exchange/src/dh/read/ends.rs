@@ -70,7 +70,7 @@ pub(super) fn read(
     cells: &Cells<'_>,
     convention: DhConvention,
     angles: &mut AngleRounding,
-    document: &mut Document,
+    document: &Document,
 ) -> Option<[Option<Placement>; 2]> {
     let whole = document.text.clone();
     let count = text.rows.len();
@@ -119,7 +119,7 @@ fn placement(
     cells: &Cells<'_>,
     convention: DhConvention,
     angles: &mut AngleRounding,
-    document: &mut Document,
+    document: &Document,
 ) -> Option<Placement> {
     if let Some((_, cell)) = JOINT_ONLY.iter().find_map(|quantity| cells.cell(row, *quantity)) {
         let message = format!("the {} is fixed: this column is for joints only", end.name());

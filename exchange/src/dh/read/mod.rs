@@ -30,7 +30,7 @@ use crate::import::geometry::Geometry;
 /// Returns `None` if the table is wrong: the mistakes are then in the document. Notes say which
 /// columns are left out.
 pub fn read(
-    document: &mut Document,
+    document: &Document,
     convention: DhConvention,
     units: Units,
     angles: &mut AngleRounding,
@@ -40,11 +40,11 @@ pub fn read(
     check_convention(&text, convention, document)?;
     let columns = Columns::read(&text, convention, document)?;
     let length = units.length.or_else(|| columns.length()).unwrap_or(LengthUnit::Metre);
-    let (mistakes, whole) = (document.found.len(), document.text.clone());
+    let (mistakes, whole) = (document.mistakes(), document.text.clone());
     let cells = Cells { columns: &columns, units, length, decimal_comma: text.decimal_comma };
     let [base, tool] = ends::read(&mut text, &cells, convention, angles, document)?;
     let joints = rows::read(&text, &cells, document, notes);
-    if document.found.len() > mistakes {
+    if document.mistakes() > mistakes {
         return None;
     }
     let mut ignored = columns.ignored();
@@ -87,7 +87,7 @@ pub fn read(
 }
 
 /// Reports a text that names the other convention.
-fn check_convention(text: &Text, convention: DhConvention, document: &mut Document) -> Option<()> {
+fn check_convention(text: &Text, convention: DhConvention, document: &Document) -> Option<()> {
     let Some((span, stated)) = &text.convention else { return Some(()) };
     if *stated == convention {
         return Some(());

@@ -52,12 +52,7 @@ const KINDS: [(&str, Kind); 10] = [
 ];
 
 /// Reads the joints of all rows; mistakes go to the document.
-pub(super) fn read(
-    text: &Text,
-    cells: &Cells<'_>,
-    document: &mut Document,
-    notes: &mut dyn Notes,
-) -> Vec<Joint> {
+pub(super) fn read(text: &Text, cells: &Cells<'_>, document: &Document, notes: &mut dyn Notes) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     for (i, row) in text.rows.iter().enumerate() {
         let Some(joint) = joint(i, row, cells, document) else { continue };
@@ -82,13 +77,13 @@ pub(super) fn read(
         }
         joints.push(joint);
     }
-    if document.found.is_empty() && joints.iter().all(|joint| joint.motion.is_none()) {
+    if document.mistakes() == 0 && joints.iter().all(|joint| joint.motion.is_none()) {
         let mistake = Diagnostic::new(cells.columns.span.clone(), "this table has no joint variable");
         document.mistake(mistake.help("write `revolute` or `prismatic` in the column `kind` of each joint"));
     }
     let slides = joints.iter().flat_map(|joint| &joint.motion).any(|motion| motion.prismatic);
     // After a mistake only mistakes are reported.
-    if document.found.is_empty() && cells.columns.get(Quantity::Kind).is_none() && !slides {
+    if document.mistakes() == 0 && cells.columns.get(Quantity::Kind).is_none() && !slides {
         notes.note(
             "the table has no column `kind` and no variable in `d`: all joints were read \
             as revolute",
@@ -98,11 +93,11 @@ pub(super) fn read(
 }
 
 /// Reads row `i`, counted from 0.
-fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> Option<Joint> {
+fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &Document) -> Option<Joint> {
     let whole = document.text.clone();
     let theta = cells.amount(row, Quantity::Theta, document);
     let d = cells.amount(row, Quantity::D, document);
-    let mut plain = |quantity| match cells.cell(row, quantity) {
+    let plain = |quantity| match cells.cell(row, quantity) {
         Some((column, cell)) => cells.number(&column, cell, quantity == Quantity::A, document),
         None => Some(0.0),
     };
@@ -142,7 +137,7 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
     }
     let prismatic = kind == Kind::Prismatic;
     let Amount { variable, reversed, constant } = if prismatic { d.clone() } else { theta.clone() };
-    let mut number = |quantity| match cells.cell(row, quantity) {
+    let number = |quantity| match cells.cell(row, quantity) {
         Some((column, cell)) => cells.number(&column, cell, prismatic, document).map(Some),
         None => Some(None),
     };
@@ -201,7 +196,7 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
 }
 
 /// Reads a word of the column `kind`.
-fn kind(whole: &str, cell: Span, document: &mut Document) -> Option<Kind> {
+fn kind(whole: &str, cell: Span, document: &Document) -> Option<Kind> {
     let word = whole[cell.clone()].to_lowercase();
     let found = KINDS.iter().find(|(name, _)| *name == word).map(|(_, kind)| *kind);
     if found.is_none() {

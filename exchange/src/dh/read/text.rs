@@ -30,7 +30,7 @@ pub(super) struct Text {
 
 impl Text {
     /// Finds the first line with two known names of columns, and the rows below it.
-    pub(super) fn find(document: &mut Document) -> Option<Self> {
+    pub(super) fn find(document: &Document) -> Option<Self> {
         let whole = document.text.clone();
         let is_heading = |cells: &[Span]| {
             let cells = cells.iter().filter(|cell| Heading::parse(&whole[(*cell).clone()]).is_some());

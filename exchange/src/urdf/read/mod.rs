@@ -20,14 +20,14 @@ use crate::import::{AngleRounding, Chain};
 /// Returns `None` if the file is wrong: the mistakes are then in the document. Notes say what is
 /// left out.
 pub fn read(
-    document: &mut Document,
+    document: &Document,
     ends: &Ends,
     fold: bool,
     angles: &mut AngleRounding,
     notes: &mut dyn Notes,
 ) -> Option<Chain> {
     let robot = xml::robot(document)?;
-    if !document.found.is_empty() {
+    if document.mistakes() > 0 {
         return None;
     }
     let tree = tree::Tree::new(&robot, document)?;

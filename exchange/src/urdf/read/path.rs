@@ -31,7 +31,7 @@ pub(super) fn chain(
     ends: &Ends,
     fold: bool,
     angles: &mut AngleRounding,
-    document: &mut Document,
+    document: &Document,
     notes: &mut dyn Notes,
 ) -> Option<Chain> {
     let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
@@ -82,13 +82,14 @@ pub(super) fn chain(
 }
 
 /// Returns the index of the link that an option names; another name is a mistake.
-fn find_link(option: &NamedOption, name: &str, names: &[&str], document: &mut Document) -> Option<usize> {
+fn find_link(option: &NamedOption, name: &str, names: &[&str], document: &Document) -> Option<usize> {
     let found = names.iter().position(|link| *link == name);
     if found.is_none() {
         // The mistake is in the option, and has no span in the file.
-        let mut argument = Document::new(option.to_string(), name);
-        find_name(&mut argument, 0..name.len(), name, names, "link");
-        let help = argument.found.into_iter().find_map(|mistake| mistake.help).unwrap_or_default();
+        let argument = Document::new(option.to_string(), name);
+        find_name(&argument, 0..name.len(), name, names, "link");
+        let help =
+            argument.found.into_inner().into_iter().find_map(|mistake| mistake.help).unwrap_or_default();
         let message = format!("`{option}`: there is no link `{}`", name.escape_debug());
         document.mistake(Diagnostic::whole_file(message).help(help));
     }
@@ -96,7 +97,7 @@ fn find_link(option: &NamedOption, name: &str, names: &[&str], document: &mut Do
 }
 
 /// Returns the only link without a child; several are a mistake.
-fn only_tip(tree: &Tree<'_>, names: &[&str], document: &mut Document) -> Option<usize> {
+fn only_tip(tree: &Tree<'_>, names: &[&str], document: &Document) -> Option<usize> {
     match tree.tips()[..] {
         [tip] => Some(tip),
         ref several => {
@@ -137,7 +138,7 @@ impl<'r> Builder<'r> {
 
     /// Collects the variables of the joints on the path: their own, or that of the joint that they
     /// follow.
-    fn variables(&mut self, path: &[Step<'r>], document: &mut Document) -> Option<()> {
+    fn variables(&mut self, path: &[Step<'r>], document: &Document) -> Option<()> {
         for Step { joint, .. } in path {
             match joint.kind {
                 JointKind::Fixed => continue,
@@ -168,7 +169,7 @@ impl<'r> Builder<'r> {
 
     /// Returns the joint whose variable moves a joint, itself if it follows none, with multiplier
     /// and offset.
-    fn leader(&self, joint: &'r Joint, document: &mut Document) -> Option<(&'r Joint, [f64; 2])> {
+    fn leader(&self, joint: &'r Joint, document: &Document) -> Option<(&'r Joint, [f64; 2])> {
         let (mut leader, [mut multiplier, mut offset]) = (joint, [1.0, 0.0]);
         for _ in 0..=self.robot.joints.len() {
             let Some(mimic) = &leader.mimic else {

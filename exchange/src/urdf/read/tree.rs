@@ -20,13 +20,13 @@ pub(super) struct Tree<'r> {
 
 impl<'r> Tree<'r> {
     /// Checks that the robot is one tree; mistakes go to the document.
-    pub(super) fn new(robot: &'r Robot, document: &mut Document) -> Option<Self> {
+    pub(super) fn new(robot: &'r Robot, document: &Document) -> Option<Self> {
         let Robot { links, joints, .. } = robot;
-        let before = document.found.len();
+        let before = document.mistakes();
         let indices = unique_indices(links.iter().map(|link| (&link.name, &link.span)), "links", document);
         unique_indices(joints.iter().map(|joint| (&joint.name, &joint.span)), "joints", document);
         let names: Vec<&str> = links.iter().map(|link| link.name.as_str()).collect();
-        let mut link = |Named { name, span }: &Named| match indices.get(name.as_str()) {
+        let link = |Named { name, span }: &Named| match indices.get(name.as_str()) {
             Some(&index) => Some(index),
             None => {
                 find_name(document, span.clone(), name, &names, "link");
@@ -55,7 +55,7 @@ impl<'r> Tree<'r> {
             let mistake = Diagnostic::whole_file("this robot has no joints");
             document.mistake(mistake.help("give the file of the whole robot"));
         }
-        if document.found.len() > before {
+        if document.mistakes() > before {
             return None;
         }
         let tree = Self { robot, carrier, carried };
@@ -69,7 +69,7 @@ impl<'r> Tree<'r> {
     }
 
     /// Checks that there is one root, and that it carries every link.
-    fn check_roots(&self, document: &mut Document) -> Option<()> {
+    fn check_roots(&self, document: &Document) -> Option<()> {
         let Robot { links, joints, .. } = self.robot;
         let mut roots = self.roots();
         if let (Some(first), Some(second)) = (roots.next(), roots.next()) {
@@ -174,7 +174,7 @@ pub(super) struct Step<'r> {
 fn unique_indices<'a>(
     named: impl Iterator<Item = (&'a String, &'a Span)>,
     what: &str,
-    document: &mut Document,
+    document: &Document,
 ) -> HashMap<&'a str, usize> {
     let mut first: HashMap<&str, (usize, &Span)> = HashMap::new();
     for (number, (name, span)) in named.enumerate() {

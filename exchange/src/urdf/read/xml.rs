@@ -9,7 +9,7 @@ use super::robot::{Joint, JointKind, Link, Mimic, Named, Robot};
 use crate::placement::Placement;
 
 /// Parses a robot; mistakes go to the document.
-pub(super) fn robot(document: &mut Document) -> Option<Robot> {
+pub(super) fn robot(document: &Document) -> Option<Robot> {
     let text = document.text.clone();
     let xml = match roxmltree::Document::parse(&text) {
         Ok(xml) => xml,
@@ -89,7 +89,7 @@ fn start_of(node: Node<'_, '_>) -> Span {
 
 /// Reads elements; mistakes go to the document.
 struct Reader<'d> {
-    document: &'d mut Document,
+    document: &'d Document,
 }
 
 impl Reader<'_> {

@@ -30,9 +30,9 @@ const SAME_ROBOT: f64 = 2e-3;
 ///
 /// The file cannot be read, or the chain between the links `ends` is not that of the machine.
 pub fn write(machine: &RealMachine, file: &Path, ends: &Ends) -> Result<ExportReport, Diagnostics> {
-    let mut document = Document::read(file)?;
+    let document = Document::read(file)?;
     let text = document.text.to_string();
-    let nominal = NominalChain::read(&mut document, ends);
+    let nominal = NominalChain::read(&document, ends);
     let nominal = document.finish(nominal)?;
     let model = Model::new(machine, &nominal, file)?;
     let refused = |error| mistake::whole(&machine.origin, &error);
@@ -51,8 +51,8 @@ pub fn write(machine: &RealMachine, file: &Path, ends: &Ends) -> Result<ExportRe
         .collect();
     let Edited { text, changes } = edit::edit(&text, &new_origins);
     let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let mut document = Document::new(&name, text.as_str());
-    let read = NominalChain::read(&mut document, ends);
+    let document = Document::new(&name, text.as_str());
+    let read = NominalChain::read(&document, ends);
     let read = document.finish(read)?;
     let mut left_out: Vec<String> = machine.held_at_mean().into_iter().collect();
     if joints.last().is_some_and(|joint| joint.axis.is_some()) {

@@ -6,27 +6,22 @@ use abbe_core::Component;
 use super::keys::{COVARIANCE, COVARIANCE_OF};
 use super::undetermined::numbers;
 use crate::diagnostic::Diagnostic;
-use crate::document::{Document, Item, Section};
+use crate::document::{Item, Section};
 use crate::expr::{Dimension, Scope, Symbol};
 use crate::manipulator::{Cause, ChainNumber, Covariance, Identified, Source};
 use crate::value::read_name;
 
 /// Reads the table; the covariance is empty without one.
-pub(super) fn read_covariance(
-    root: &Section<'_>,
-    sources: &[Source],
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<Covariance> {
+pub(super) fn read_covariance(root: &Section<'_>, sources: &[Source], scope: &Scope) -> Option<Covariance> {
     let Some(item) = root.get("covariance") else { return Some(Covariance::default()) };
-    let section = document.table(&item, "[covariance]", &[&COVARIANCE])?;
-    let (of, rows) = (section.required("of", document), section.required("rows", document));
+    let section = item.table("[covariance]", &[&COVARIANCE])?;
+    let (of, rows) = (section.required("of"), section.required("rows"));
     let (of, rows_item) = (of?, rows?);
     let mut all = Vec::new();
-    for item in document.array(&of, "an array of tables `{ source = \"…\" }`")? {
-        all.push(identified(&item, sources, scope, document)?);
+    for item in of.array("an array of tables `{ source = \"…\" }`")? {
+        all.push(identified(&item, sources, scope)?);
     }
-    let rows = numbers(&rows_item, Dimension::NONE, "a covariance", scope, document)?;
+    let rows = numbers(&rows_item, Dimension::NONE, "a covariance", scope)?;
     let count = all.len();
     let square = rows.len() == count && rows.iter().all(|row| row.len() == count);
     let message = if !square {
@@ -39,24 +34,18 @@ pub(super) fn read_covariance(
         return Some(Covariance { of: all, rows });
     };
     let help = format!("`{IDENTIFY_OUT}` writes this table; remove it if the covariance is unknown");
-    document.refuse(rows_item.span(), message, help)
+    rows_item.refuse(message, help)
 }
 
-fn identified(
-    item: &Item<'_>,
-    sources: &[Source],
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<Identified> {
-    let section = document.table(item, "this entry of [covariance]", &[&COVARIANCE_OF])?;
-    let name = section.required("source", document)?;
-    let source = read_name(document, &name, sources.iter().map(|source| source.name.as_str()), "source")?;
+fn identified(item: &Item<'_>, sources: &[Source], scope: &Scope) -> Option<Identified> {
+    let section = item.table("this entry of [covariance]", &[&COVARIANCE_OF])?;
+    let name = section.required("source")?;
+    let source = read_name(&name, sources.iter().map(|source| source.name.as_str()), "source")?;
     if let Some(joint) = section.get("joint") {
-        return of_joint(&section, &joint, &sources[source], scope, document);
+        return of_joint(&section, &joint, &sources[source], scope);
     }
     let Some(error) = section.get("error") else { return Some(Identified::Magnitude(source)) };
-    let component =
-        document.choice(&error, &Component::ALL.map(|component| (component.name(), component)))?;
+    let component = error.choice(&Component::ALL.map(|component| (component.name(), component)))?;
     let has = |cause: &Cause| match cause {
         Cause::Errors(errors) => errors.iter().any(|(own, _)| *own == component),
         _ => false,
@@ -65,24 +54,18 @@ fn identified(
     if effect.is_none() {
         let message = format!("`{}` has no {} of a frame", sources[source].name, component.name());
         let help = "name an error of the source, or omit `error` to refer to the magnitude of the source";
-        document.mistake(Diagnostic::new(error.span(), message).help(help));
+        item.document.mistake(Diagnostic::new(error.span(), message).help(help));
     }
     effect.map(|effect| Identified::Error(effect.frame, component))
 }
 
 /// Reads `joint`: the source has an error of this joint.
-fn of_joint(
-    section: &Section<'_>,
-    item: &Item<'_>,
-    source: &Source,
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<Identified> {
+fn of_joint(section: &Section<'_>, item: &Item<'_>, source: &Source, scope: &Scope) -> Option<Identified> {
     if let Some(error) = section.get("error") {
         let help = "`error` names an error of a frame; remove one of them";
-        return document.refuse(error.key_span.clone(), "`error` and `joint` cannot be combined", help);
+        return error.refuse_key("`error` and `joint` cannot be combined", help);
     }
-    let name = document.string(item)?;
+    let name = item.string()?;
     let joint = source.deviations.iter().find_map(|deviation| match deviation.number {
         ChainNumber::Joint(joint) => {
             let is_named =
@@ -94,7 +77,7 @@ fn of_joint(
     if joint.is_none() {
         let message = format!("`{}` has no error of a joint `{name}`", source.name);
         let help = "name the joint of the source, or omit `joint` to refer to the magnitude of the source";
-        document.mistake(Diagnostic::new(item.span(), message).help(help));
+        section.document.mistake(Diagnostic::new(item.span(), message).help(help));
     }
     joint.map(Identified::Joint)
 }

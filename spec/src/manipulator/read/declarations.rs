@@ -32,40 +32,40 @@ impl Declarations {
     }
 
     /// Reads `[parameters]`.
-    pub(super) fn read_parameters(&mut self, root: &Section<'_>, document: &mut Document) {
+    pub(super) fn read_parameters(&mut self, root: &Section<'_>) {
         let Some(item) = root.get("parameters") else { return };
-        let Some(section) = document.section(&item) else { return };
+        let Some(section) = item.section() else { return };
         let help = "write constants that are never changed where they are used";
-        if document.at_most(&item, section.items().count(), MOST, "parameters", help).is_none() {
+        if item.at_most(section.items().count(), MOST, "parameters", help).is_none() {
             return;
         }
         for item in section.items() {
-            let (value, table) = self.valued(&item, &keys::PARAMETER, "parameter", document);
+            let (value, table) = self.valued(&item, &keys::PARAMETER, "parameter");
             let symbol = Symbol::Parameter(self.parameters.len());
-            self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), document);
+            self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), root.document);
             let (value, dimension) = value.unwrap_or((0.0, Dimension::NONE));
             self.set_range(&item.key, [value; 2]);
-            let description = table.map_or_else(String::new, |t| t.optional_text("description", document));
+            let description = table.map_or_else(String::new, |t| t.optional_text("description"));
             let unit = dimension.unit(self.scope.length.symbol());
             self.parameters.push(Parameter { name: item.key, value, dimension, unit, description });
         }
     }
 
     /// Reads `[inputs]`.
-    pub(super) fn read_inputs(&mut self, root: &Section<'_>, document: &mut Document) {
+    pub(super) fn read_inputs(&mut self, root: &Section<'_>) {
         let Some(item) = root.get("inputs") else { return };
-        let Some(section) = document.section(&item) else { return };
+        let Some(section) = item.section() else { return };
         let help = "use parameters, or write constants where they are used";
-        if document.at_most(&item, section.items().count(), MOST, "inputs", help).is_none() {
+        if item.at_most(section.items().count(), MOST, "inputs", help).is_none() {
             return;
         }
         for item in section.items() {
-            let (value, table) = self.valued(&item, &keys::INPUT, "input", document);
+            let (value, table) = self.valued(&item, &keys::INPUT, "input");
             let symbol = Symbol::Input(self.inputs.len());
-            self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), document);
+            self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), root.document);
             let (mut range, mut levels) = ([f64::NEG_INFINITY, f64::INFINITY], Vec::new());
             if let (Some((value, dimension)), Some(table)) = (value, &table)
-                && let Some((entry, read)) = self.values_of_input(table, dimension, document)
+                && let Some((entry, read)) = self.values_of_input(table, dimension)
             {
                 range = [read[0], read[read.len() - 1]];
                 if entry.key == "levels" {
@@ -77,16 +77,16 @@ impl Declarations {
                     let message = format!("the value of `{}` is {place}", item.key);
                     let help = format!("change the {} or the value", entry.key);
                     let mistake = Diagnostic::new(entry.span(), message);
-                    document.mistake(mistake.label(format!("the value is {value}")).help(help));
+                    root.document.mistake(mistake.label(format!("the value is {value}")).help(help));
                 }
             }
             let uncertainty = match (value, &table) {
-                (Some((_, dimension)), Some(table)) => self.uncertainty(table, dimension, document),
+                (Some((_, dimension)), Some(table)) => self.uncertainty(table, dimension),
                 _ => 0.0,
             };
             let (value, dimension) = value.unwrap_or((0.0, Dimension::NONE));
             self.set_range(&item.key, range);
-            let description = table.map_or_else(String::new, |t| t.optional_text("description", document));
+            let description = table.map_or_else(String::new, |t| t.optional_text("description"));
             let unit = dimension.unit(self.scope.length.symbol());
             let name = item.key;
             self.inputs.push(Input { name, value, dimension, unit, range, levels, uncertainty, description });
@@ -94,47 +94,42 @@ impl Declarations {
     }
 
     /// Reads the `range` of an input, or its `levels`, in ascending order; `None` without them.
-    fn values_of_input<'d>(
-        &self,
-        table: &Section<'d>,
-        dimension: Dimension,
-        document: &mut Document,
-    ) -> Option<(Item<'d>, Vec<f64>)> {
+    fn values_of_input<'d>(&self, table: &Section<'d>, dimension: Dimension) -> Option<(Item<'d>, Vec<f64>)> {
         match (table.get("range"), table.get("levels")) {
             (Some(item), None) => {
-                let range = self.interval(&item, dimension, document)?;
+                let range = self.interval(&item, dimension)?;
                 Some((item, range.to_vec()))
             }
             (None, Some(item)) => {
                 let entry = Entry { dimension: Some(dimension), what: "a level", names: Allowed::Nothing };
-                let items = document.array(&item, "a list of values")?;
-                let levels = items.iter().map(|one| document.constant(one, &self.scope, entry));
+                let items = item.array("a list of values")?;
+                let levels = items.iter().map(|one| one.constant(&self.scope, entry));
                 let mut levels: Vec<f64> = levels.map(|read| Some(read?.0)).collect::<Option<_>>()?;
                 levels.sort_by(f64::total_cmp);
                 levels.dedup();
                 if levels.is_empty() {
-                    return document.refuse(item.span(), "`levels` has no values", "give at least one value");
+                    return item.refuse("`levels` has no values", "give at least one value");
                 }
                 Some((item, levels))
             }
             (Some(_), Some(item)) => {
                 let mistake = Diagnostic::new(item.key_span, "`range` and `levels` cannot be combined");
-                document.fail(mistake.help("remove the range: it is that of the levels"))
+                table.document.fail(mistake.help("remove the range: it is that of the levels"))
             }
             (None, None) => None,
         }
     }
 
     /// Reads the `uncertainty` of an input; 0 without it.
-    fn uncertainty(&self, table: &Section<'_>, dimension: Dimension, document: &mut Document) -> f64 {
+    fn uncertainty(&self, table: &Section<'_>, dimension: Dimension) -> f64 {
         let Some(item) = table.get("uncertainty") else { return 0.0 };
         let what = "the uncertainty of an input";
         let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
-        let Some((value, _)) = document.constant(&item, &self.scope, entry) else { return 0.0 };
+        let Some((value, _)) = item.constant(&self.scope, entry) else { return 0.0 };
         if value <= 0.0 {
             let help = "write the standard uncertainty of the input, or leave it out if the value is exact";
             let mistake = Diagnostic::new(item.span(), "`uncertainty` must be positive");
-            document.mistake(mistake.label(format!("this is {value}")).help(help));
+            table.document.mistake(mistake.label(format!("this is {value}")).help(help));
         }
         value
     }
@@ -149,56 +144,51 @@ impl Declarations {
     }
 
     /// Reads the `variable` of a frame, or of the leg that ends at it, and returns its symbol.
-    pub(super) fn read_variable(
-        &mut self,
-        frame: usize,
-        item: &Item<'_>,
-        document: &mut Document,
-    ) -> Option<Symbol> {
-        let table = document.table(item, "`variable`", &[&keys::VARIABLE, &keys::FRAME_VARIABLE])?;
-        let name_item = table.required("name", document);
-        let kind = table.required("kind", document).and_then(|kind| document.choice(&kind, &JOINT_KINDS));
+    pub(super) fn read_variable(&mut self, frame: usize, item: &Item<'_>) -> Option<Symbol> {
+        let table = item.table("`variable`", &[&keys::VARIABLE, &keys::FRAME_VARIABLE])?;
+        let name_item = table.required("name");
+        let kind = table.required("kind").and_then(|kind| kind.choice(&JOINT_KINDS));
         let dimension = kind.map(|kind| match kind {
             VariableKind::Revolute => Dimension::NONE,
             VariableKind::Prismatic => Dimension::LENGTH,
         });
         let name_item = name_item?;
-        let name = document.string(&name_item)?;
+        let name = name_item.string()?;
         let passive = table.get("passive");
-        let is_passive = passive.and_then(|item| document.boolean(&item)).unwrap_or(false);
+        let is_passive = passive.and_then(|item| item.boolean()).unwrap_or(false);
         let symbol = match is_passive {
             true => Symbol::Passive(self.passive.len()),
             false => Symbol::Variable(self.variables.len()),
         };
-        self.declare(&name, name_item.span(), symbol, dimension, document);
+        self.declare(&name, name_item.span(), symbol, dimension, item.document);
         let mut limits = [f64::NEG_INFINITY, f64::INFINITY];
         let mut home = 0.0;
         if let Some(dimension) = dimension {
             let entry = table.get("limits");
             let mut is_meant = true;
             if kind == Some(VariableKind::Revolute) {
-                is_meant = Self::check_angles(&name, &table, document);
+                is_meant = Self::check_angles(&name, &table);
             }
-            if let Some(read) = entry.as_ref().and_then(|entry| self.interval(entry, dimension, document)) {
+            if let Some(read) = entry.as_ref().and_then(|entry| self.interval(entry, dimension)) {
                 limits = read;
             }
             let home_item = table.get("home");
             if let Some(item) = &home_item {
                 let expected =
                     Entry { dimension: Some(dimension), what: "the home value", names: Allowed::Nothing };
-                home = document.constant(item, &self.scope, expected).map_or(home, |read| read.0);
+                home = item.constant(&self.scope, expected).map_or(home, |read| read.0);
             }
             if is_meant && !(limits[0]..=limits[1]).contains(&home) {
                 let span = home_item.map(|item| item.span()).or(entry.map(|entry| entry.span()));
                 let message = format!("home of `{name}` is outside its limits");
                 let label = format!("home is {home}, the limits are {} to {}", limits[0], limits[1]);
                 let mistake = Diagnostic::new(span.unwrap_or(item.key_span.clone()), message).label(label);
-                document.mistake(mistake.help("give a `home` within the limits; it is 0 if not given"));
+                item.document.mistake(mistake.help("give a `home` within the limits; it is 0 if not given"));
             }
         }
         self.set_range(&name, limits);
         let kind = kind.unwrap_or(VariableKind::Revolute);
-        let description = table.optional_text("description", document);
+        let description = table.optional_text("description");
         let list = if is_passive { &mut self.passive } else { &mut self.variables };
         list.push(Variable { name, kind, limits, home, description, frame });
         Some(symbol)
@@ -206,15 +196,15 @@ impl Declarations {
 
     /// Records limits and a home of a revolute joint that are probably in degrees, and returns
     /// `true` if there are none.
-    fn check_angles(name: &str, table: &Section<'_>, document: &mut Document) -> bool {
-        let before = document.found.len();
+    fn check_angles(name: &str, table: &Section<'_>) -> bool {
+        let before = table.document.mistakes();
         if let Some(home) = table.get("home") {
-            check_angle_item(&home, &format!("home of `{name}`"), document);
+            check_angle_item(&home, &format!("home of `{name}`"));
         }
         for limit in table.get("limits").map_or_else(Vec::new, |limits| limits.list()) {
-            check_angle_item(&limit, &format!("a limit of `{name}`"), document);
+            check_angle_item(&limit, &format!("a limit of `{name}`"));
         }
-        document.found.len() == before
+        table.document.mistakes() == before
     }
 
     /// Reads the value of a parameter or input: `x = 5`, `x = "5 mm"` or `x = { value = "5 mm", …
@@ -224,38 +214,32 @@ impl Declarations {
         item: &Item<'d>,
         known: &Keys,
         what: &str,
-        document: &mut Document,
     ) -> (Option<(f64, Dimension)>, Option<Section<'d>>) {
         let entry =
             Entry { dimension: None, what: &format!("the value of a {what}"), names: Allowed::Nothing };
         if !item.is_table() {
-            return (document.constant(item, &self.scope, entry), None);
+            return (item.constant(&self.scope, entry), None);
         }
-        let Some(mut table) = document.section(item) else {
+        let Some(mut table) = item.section() else {
             return (None, None);
         };
         table.name = format!("the {what} `{}`", item.key);
-        table.check_keys(&[known], document);
-        let value = table.required("value", document);
-        (value.and_then(|value| document.constant(&value, &self.scope, entry)), Some(table))
+        table.check_keys(&[known]);
+        let value = table.required("value");
+        (value.and_then(|value| value.constant(&self.scope, entry)), Some(table))
     }
 
     /// Reads the two ends of an interval, the lower one first.
-    pub(super) fn interval(
-        &self,
-        item: &Item<'_>,
-        dimension: Dimension,
-        document: &mut Document,
-    ) -> Option<[f64; 2]> {
+    pub(super) fn interval(&self, item: &Item<'_>, dimension: Dimension) -> Option<[f64; 2]> {
         let what = format!("an end of `{}`", item.key);
         let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
-        let ends: [Item<'_>; 2] = document.entries(item, "two numbers, lower and upper")?;
-        let [lower, upper] = ends.map(|end| document.constant(&end, &self.scope, entry));
+        let ends: [Item<'_>; 2] = item.entries("two numbers, lower and upper")?;
+        let [lower, upper] = ends.map(|end| end.constant(&self.scope, entry));
         let (lower, upper) = (lower?.0, upper?.0);
         if lower > upper {
             let help = "write the lower end first";
             let mistake = Diagnostic::new(item.span(), format!("the ends of `{}` are reversed", item.key));
-            return document.fail(mistake.label(format!("{lower} is more than {upper}")).help(help));
+            return item.document.fail(mistake.label(format!("{lower} is more than {upper}")).help(help));
         }
         Some([lower, upper])
     }
@@ -272,7 +256,7 @@ impl Declarations {
         span: Span,
         symbol: Symbol,
         dimension: Option<Dimension>,
-        document: &mut Document,
+        document: &Document,
     ) {
         // An invalid name is declared anyway, so that its uses are not reported as well.
         check_identifier(name, span.clone(), document);

@@ -6,7 +6,7 @@ use super::frames::motion_dimension;
 use super::keys;
 use crate::degrees::check_error_of_angle;
 use crate::diagnostic::Diagnostic;
-use crate::document::{Document, Item, Section};
+use crate::document::{Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Motion, Scope, Symbol};
 use crate::manipulator::{ChainNumber, Deviation, DeviationCause, DhNumber, Factor, Tree};
 use crate::value::find_name;
@@ -36,11 +36,7 @@ impl Chain<'_> {
 }
 
 /// Reads the deviations in a source or in one of its `[[source.effect]]` tables.
-pub(super) fn read_deviations(
-    section: &Section<'_>,
-    chain: Chain<'_>,
-    document: &mut Document,
-) -> Option<Vec<Deviation>> {
+pub(super) fn read_deviations(section: &Section<'_>, chain: Chain<'_>) -> Option<Vec<Deviation>> {
     let places: Vec<Item<'_>> =
         ["joint", "parameter", "dh"].iter().filter_map(|key| section.get(key)).collect();
     let Some(place) = places.first() else {
@@ -58,7 +54,7 @@ pub(super) fn read_deviations(
             ),
         };
         let message = format!("`{}` needs a {owners}", item.key);
-        return document.fail(Diagnostic::new(item.key_span, message).label(label).help(help));
+        return section.document.fail(Diagnostic::new(item.key_span, message).label(label).help(help));
     };
     let allowed: &[&str] = match (place.key.as_str(), section.get("stiffness")) {
         ("dh", _) => &["dh", "frame"],
@@ -85,54 +81,44 @@ pub(super) fn read_deviations(
         };
         let message = format!("`{}` and `{}` cannot be combined", other.key, place.key);
         let mistake = Diagnostic::new(other.key_span, message).label("one too many");
-        return document.fail(mistake.context(place.key_span.clone(), "the other one").help(help));
+        return section.document.fail(mistake.context(place.key_span.clone(), "the other one").help(help));
     }
     match place.key.as_str() {
-        "dh" => read_numbers(section, place, chain, document),
+        "dh" => read_numbers(section, place, chain),
         "joint" if section.get("stiffness").is_some() => {
-            read_stiffness(section, place, chain, document).map(|deviation| vec![deviation])
+            read_stiffness(section, place, chain).map(|deviation| vec![deviation])
         }
-        _ => read_symbol(section, place, chain, document).map(|deviation| vec![deviation]),
+        _ => read_symbol(section, place, chain).map(|deviation| vec![deviation]),
     }
 }
 
 /// Reads `joint` or `parameter` with its `error`.
-fn read_symbol(
-    section: &Section<'_>,
-    place: &Item<'_>,
-    chain: Chain<'_>,
-    document: &mut Document,
-) -> Option<Deviation> {
+fn read_symbol(section: &Section<'_>, place: &Item<'_>, chain: Chain<'_>) -> Option<Deviation> {
     let form = match place.key.as_str() {
         "joint" => "`error = …`, or the `stiffness` of an elastic joint",
         _ => "`error = …`",
     };
-    let error = section.required_as("error", form, document);
-    let (number, dimension) = find_symbol(place, chain, document)?;
-    let name = document.string(place)?;
+    let error = section.required_as("error", form);
+    let (number, dimension) = find_symbol(place, chain)?;
+    let name = place.string()?;
     let what = format!("the error of `{name}`");
     let entry = Entry { dimension, what: &what, names: Allowed::Everything };
-    let error = document.expression(&error?, chain.scope, entry)?;
+    let error = error?.expression(chain.scope, entry)?;
     if matches!(number, ChainNumber::Joint(_)) && dimension == Some(Dimension::NONE) {
-        check_error_of_angle(&error, document);
+        check_error_of_angle(&error, section.document);
     }
     Some(Deviation { number, cause: DeviationCause::Error(error), span: place.key_span.clone() })
 }
 
 /// Reads `joint` with its `stiffness`, and the `moment` if that is measured.
-fn read_stiffness(
-    section: &Section<'_>,
-    place: &Item<'_>,
-    chain: Chain<'_>,
-    document: &mut Document,
-) -> Option<Deviation> {
-    let (number, dimension) = find_symbol(place, chain, document)?;
+fn read_stiffness(section: &Section<'_>, place: &Item<'_>, chain: Chain<'_>) -> Option<Deviation> {
+    let (number, dimension) = find_symbol(place, chain)?;
     let load = if dimension == Some(Dimension::LENGTH) { Dimension::FORCE } else { Dimension::MOMENT };
-    let mut quantity = |key: &str, dimension: Option<Dimension>| {
+    let quantity = |key: &str, dimension: Option<Dimension>| {
         let item = section.get(key)?;
         let what = format!("`{key}`");
         let entry = Entry { dimension, what: &what, names: Allowed::Everything };
-        Some(document.expression(&item, chain.scope, entry))
+        Some(item.expression(chain.scope, entry))
     };
     // Small exponents cannot overflow.
     let stiffness = quantity("stiffness", load.over(dimension.unwrap_or(Dimension::NONE)))??;
@@ -143,12 +129,8 @@ fn read_stiffness(
     Some(Deviation { number, cause, span: place.key_span.clone() })
 }
 
-fn find_symbol(
-    place: &Item<'_>,
-    chain: Chain<'_>,
-    document: &mut Document,
-) -> Option<(ChainNumber, Option<Dimension>)> {
-    let name = document.string(place)?;
+fn find_symbol(place: &Item<'_>, chain: Chain<'_>) -> Option<(ChainNumber, Option<Dimension>)> {
+    let name = place.string()?;
     let of_joint = place.key == "joint";
     let fits = |symbol: Symbol| match symbol {
         Symbol::Variable(_) => of_joint,
@@ -162,7 +144,7 @@ fn find_symbol(
         let message = format!("the passive joint `{name}` has no error and no stiffness");
         let help = "give the clearance of its bearing as errors e_x … e_p of its `frame`";
         let mistake = Diagnostic::new(place.span(), message).label("the loops determine its value");
-        return document.fail(mistake.context(passive.span.clone(), "declared here").help(help));
+        return place.document.fail(mistake.context(passive.span.clone(), "declared here").help(help));
     }
     if let Some(other) = declared.filter(|declared| !fits(declared.symbol)) {
         let (kind, help) = match other.symbol {
@@ -172,7 +154,7 @@ fn find_symbol(
             _ => ("an input", "an input can be used in `error`, but is not part of the chain".to_owned()),
         };
         let mistake = Diagnostic::new(place.span(), format!("`{name}` is {kind}, not a {}", place.key));
-        return document.fail(mistake.context(other.span.clone(), "declared here").help(help));
+        return place.document.fail(mistake.context(other.span.clone(), "declared here").help(help));
     }
     let known = chain.scope.names.iter().filter(|(_, declared)| fits(declared.symbol));
     let known: Vec<&str> = known.map(|(name, _)| name.as_str()).collect();
@@ -181,14 +163,14 @@ fn find_symbol(
         && let Some(joint) = frame.variable.and_then(|variable| known.get(variable))
     {
         let help = format!("its joint is called `{joint}`: write joint = \"{joint}\"");
-        return document.refuse(place.span(), format!("`{name}` is a frame, not a joint"), help);
+        return place.refuse(format!("`{name}` is a frame, not a joint"), help);
     }
-    find_name(document, place.span(), &name, &known, &place.key)?;
+    find_name(place.document, place.span(), &name, &known, &place.key)?;
     let declared = declared?;
     if !chain.uses(declared.symbol) {
         let help = "use the parameter in a frame or in the tool, or give the errors of a `frame` instead";
         let mistake = Diagnostic::new(place.span(), format!("`{name}` is not used in any transform"));
-        return document.fail(mistake.label("its error has no effect").help(help));
+        return place.document.fail(mistake.label("its error has no effect").help(help));
     }
     let number = match declared.symbol {
         Symbol::Variable(variable) => ChainNumber::Joint(variable),
@@ -199,17 +181,12 @@ fn find_symbol(
 }
 
 /// Reads `dh = { theta, d, a, alpha }`: errors of the Denavit-Hartenberg numbers of a frame.
-fn read_numbers(
-    section: &Section<'_>,
-    place: &Item<'_>,
-    chain: Chain<'_>,
-    document: &mut Document,
-) -> Option<Vec<Deviation>> {
-    let table = document.table(place, "`dh`", &[&keys::NUMBERS])?;
-    let named = section.required("frame", document)?;
-    let frame = find_frame(&named, chain.tree.frames, document)?;
+fn read_numbers(section: &Section<'_>, place: &Item<'_>, chain: Chain<'_>) -> Option<Vec<Deviation>> {
+    let table = place.table("`dh`", &[&keys::NUMBERS])?;
+    let named = section.required("frame")?;
+    let frame = find_frame(&named, chain.tree.frames)?;
     if chain.tree.frames[frame].convention.is_none() && !chain.tree.frames[frame].factors.is_empty() {
-        return document.fail(
+        return section.document.fail(
             Diagnostic::new(
                 named.span(),
                 format!("the frame \"{}\" has no Denavit-Hartenberg numbers", chain.tree.frames[frame].name),
@@ -228,10 +205,10 @@ fn read_numbers(
             what: &what,
             names: Allowed::Everything,
         };
-        match document.expression(&item, chain.scope, entry) {
+        match item.expression(chain.scope, entry) {
             Some(error) => {
                 if number.motion().0 == Motion::Rotation {
-                    check_error_of_angle(&error, document);
+                    check_error_of_angle(&error, section.document);
                 }
                 deviations.push(Deviation {
                     number: ChainNumber::DenavitHartenberg { frame, number },
@@ -244,7 +221,7 @@ fn read_numbers(
     }
     if table.items().next().is_none() {
         let mistake = Diagnostic::new(place.span(), "`dh` is empty").label("no error here");
-        return document.fail(mistake.help("give at least one of theta, d, a, alpha"));
+        return section.document.fail(mistake.help("give at least one of theta, d, a, alpha"));
     }
     complete.then_some(deviations)
 }

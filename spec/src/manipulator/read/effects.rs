@@ -8,20 +8,15 @@ use super::keys;
 use super::named::BASE;
 use crate::degrees::check_error_of_angle;
 use crate::diagnostic::{Diagnostic, suggestion};
-use crate::document::{Document, Item, Section};
+use crate::document::{Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, motion, parse_transform};
 use crate::manipulator::{Cause, Effect, Factor, Frame, Tree};
 
 /// Reads the effect of a source, or of one of its `[[source.effect]]` tables.
-pub(super) fn read_effect(
-    section: &Section<'_>,
-    tree: Tree<'_>,
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<Effect> {
+pub(super) fn read_effect(section: &Section<'_>, tree: Tree<'_>, scope: &Scope) -> Option<Effect> {
     let causes: Vec<Item<'_>> = section.items().filter(|item| keys::CAUSE.contain(&item.key)).collect();
     let Some(first) = causes.first() else {
-        return document.fail(Diagnostic::new(section.span.clone(), format!("{} causes no error", section.name))
+        return section.document.fail(Diagnostic::new(section.span.clone(), format!("{} causes no error", section.name))
                 .label("no `e_…` here")
                 .help("give its `frame` and at least one of e_x, e_y, e_z, e_s, e_r, e_p, or a `beam` or `compliance`; or the `error` of a `joint` or `parameter`"));
     };
@@ -33,14 +28,14 @@ pub(super) fn read_effect(
         let message = format!("`{}` and `{}` cannot be combined", other.key, one.key);
         let help = "list them as [[source.effect]] tables of the source";
         let mistake = Diagnostic::new(other.key_span.clone(), message).label("one too many");
-        return document.fail(mistake.context(one.key_span.clone(), "the other one").help(help));
+        return section.document.fail(mistake.context(one.key_span.clone(), "the other one").help(help));
     }
-    let (frame, base) = place(&section.required("frame", document)?, tree, document)?;
-    let at = section.get("at").map_or(Some(Vec::new()), |item| read_place(&item, scope, document));
+    let (frame, base) = place(&section.required("frame")?, tree)?;
+    let at = section.get("at").map_or(Some(Vec::new()), |item| read_place(&item, scope));
     let cause = match first.key.as_str() {
-        "beam" => read_beam(first, scope, document).map(Cause::Beam),
-        "compliance" => read_compliance(first, scope, document).map(|read| Cause::Compliance(Box::new(read))),
-        _ => read_errors(section, scope, document).map(Cause::Errors),
+        "beam" => read_beam(first, scope).map(Cause::Beam),
+        "compliance" => read_compliance(first, scope).map(|read| Cause::Compliance(Box::new(read))),
+        _ => read_errors(section, scope).map(Cause::Errors),
     };
     let is_of_base = base.is_some();
     let at = base.into_iter().flatten().chain(at?).collect();
@@ -49,42 +44,38 @@ pub(super) fn read_effect(
 
 /// Returns the index of the frame that an item names; with the inverse of its transform if that is
 /// `F_0`, whose errors are those of the first frame at another place.
-fn place(item: &Item<'_>, tree: Tree<'_>, document: &mut Document) -> Option<(usize, Option<Vec<Factor>>)> {
-    let is_base = document.string(item)? == BASE && tree.frames.iter().all(|frame| frame.name != BASE);
+fn place(item: &Item<'_>, tree: Tree<'_>) -> Option<(usize, Option<Vec<Factor>>)> {
+    let is_base = item.string()? == BASE && tree.frames.iter().all(|frame| frame.name != BASE);
     if !is_base {
-        return find_frame(item, tree.frames, document).map(|frame| (frame, None));
+        return find_frame(item, tree.frames).map(|frame| (frame, None));
     }
     if !tree.loops.is_empty() || tree.frames.iter().skip(1).any(|frame| frame.parent.is_none()) {
         let help = "add a first [[frame]] with `transform = \"Tx(0)\"`, on which the others hang, and give it the errors";
-        return document.refuse(item.span(), "several frames hang on the base, or loops end there", help);
+        return item.refuse("several frames hang on the base, or loops end there", help);
     }
     Some((0, Some(Factor::inverse(&tree.frames.first()?.factors))))
 }
 
 /// Returns the index of the frame that an item names.
-pub(super) fn find_frame(item: &Item<'_>, frames: &[Frame], document: &mut Document) -> Option<usize> {
-    let name = document.string(item)?;
+pub(super) fn find_frame(item: &Item<'_>, frames: &[Frame]) -> Option<usize> {
+    let name = item.string()?;
     let found = frames.iter().position(|frame| frame.name == name);
     if found.is_none() {
         let names: Vec<&str> = frames.iter().map(|frame| frame.name.as_str()).collect();
-        let help = suggestion(document.found.len(), &name, &names, "frames");
+        let help = suggestion(item.document.mistakes(), &name, &names, "frames");
         let mistake = Diagnostic::new(item.span(), format!("unknown frame `{}`", name.escape_debug()));
-        document.mistake(mistake.label("not a frame of this spec").help(help));
+        item.document.mistake(mistake.label("not a frame of this spec").help(help));
     }
     found
 }
 
-fn read_place(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec<Factor>> {
-    let (text, place) = document.text(item)?;
-    let factors = parse_transform(text, &place, scope, &mut document.found)?;
+fn read_place(item: &Item<'_>, scope: &Scope) -> Option<Vec<Factor>> {
+    let (text, place) = item.located_text()?;
+    let factors = parse_transform(text, &place, scope, &mut item.document.found.borrow_mut())?;
     Some(factors.into_iter().map(Factor::Elementary).collect())
 }
 
-fn read_errors(
-    section: &Section<'_>,
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<Vec<(Component, Expression)>> {
+fn read_errors(section: &Section<'_>, scope: &Scope) -> Option<Vec<(Component, Expression)>> {
     let mut errors = Vec::new();
     let mut complete = true;
     for component in Component::ALL {
@@ -96,10 +87,10 @@ fn read_errors(
             };
             let what = format!("`{}`, a {verb} {},", component.name(), ["x", "y", "z"][axis]);
             let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
-            match document.expression(&item, scope, entry) {
+            match item.expression(scope, entry) {
                 Some(value) => {
                     if dimension == Dimension::NONE && section.get("magnitude").is_none() {
-                        check_error_of_angle(&value, document);
+                        check_error_of_angle(&value, section.document);
                     }
                     errors.push((component, value));
                 }

@@ -10,21 +10,21 @@ use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};
 use crate::manipulator::{Beam, Compliance};
 
 /// Reads a `beam`; `positive` checks the signs of its quantities.
-pub(super) fn read_beam(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Beam> {
-    let table = document.table(item, "`beam`", &[&keys::BEAM])?;
-    let axis = table.get("axis").map_or(Some(0), |item| document.choice(&item, &BEAM_AXES))?;
+pub(super) fn read_beam(item: &Item<'_>, scope: &Scope) -> Option<Beam> {
+    let table = item.table("`beam`", &[&keys::BEAM])?;
+    let axis = table.get("axis").map_or(Some(0), |item| item.choice(&BEAM_AXES))?;
     let bending = Beam::bending_keys(axis);
     if let Some(item) =
         table.items().find(|item| item.key.starts_with("EI_") && !bending.contains(&&*item.key))
     {
-        return document.fail(not_about_itself(axis, &item));
+        return item.document.fail(not_about_itself(axis, &item));
     }
-    let mut quantity = |key: &str, dimension: Dimension, required: bool| -> Option<Option<Expression>> {
-        let item = if required { Some(table.required(key, document)?) } else { table.get(key) };
+    let quantity = |key: &str, dimension: Dimension, required: bool| -> Option<Option<Expression>> {
+        let item = if required { Some(table.required(key)?) } else { table.get(key) };
         let what = format!("`{key}`");
         let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
         match item {
-            Some(item) => document.expression(&item, scope, entry).map(Some),
+            Some(item) => item.expression(scope, entry).map(Some),
             None => Some(None),
         }
     };
@@ -64,34 +64,34 @@ fn not_about_itself(axis: usize, item: &Item<'_>) -> Diagnostic {
 }
 
 /// Reads a `compliance`: six numbers on the diagonal, or all 36.
-pub(super) fn read_compliance(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Compliance> {
-    let table = document.table(item, "`compliance`", &[&keys::COMPLIANCE])?;
-    let entry = |row: usize, column: usize, item: &Item<'_>, document: &mut Document| {
+pub(super) fn read_compliance(item: &Item<'_>, scope: &Scope) -> Option<Compliance> {
+    let table = item.table("`compliance`", &[&keys::COMPLIANCE])?;
+    let entry = |row: usize, column: usize, item: &Item<'_>| {
         let what = format!("the compliance of {} per {}", Component::ALL[row].name(), WRENCH[column]);
         let entry =
             Entry { dimension: Some(dimension(row, column)), what: &what, names: Allowed::Everything };
-        document.expression(item, scope, entry)
+        item.expression(scope, entry)
     };
     let mut compliance = Compliance::default();
     match (table.get("diagonal"), table.get("matrix")) {
         (Some(diagonal), None) => {
-            let entries: [Item<'_>; 6] = document.entries(&diagonal, "six numbers")?;
+            let entries: [Item<'_>; 6] = diagonal.entries("six numbers")?;
             for (i, item) in entries.iter().enumerate() {
-                compliance[i][i] = Some(entry(i, i, item, document)?);
+                compliance[i][i] = Some(entry(i, i, item)?);
             }
         }
         (None, Some(matrix)) => {
-            let rows: [Item<'_>; 6] = document.entries(&matrix, "six rows of six numbers")?;
+            let rows: [Item<'_>; 6] = matrix.entries("six rows of six numbers")?;
             for (i, row) in rows.iter().enumerate() {
-                let entries: [Item<'_>; 6] = document.entries(row, "six rows of six numbers")?;
+                let entries: [Item<'_>; 6] = row.entries("six rows of six numbers")?;
                 for (j, item) in entries.iter().enumerate() {
-                    compliance[i][j] = Some(entry(i, j, item, document)?);
+                    compliance[i][j] = Some(entry(i, j, item)?);
                 }
             }
-            check_symmetric(&compliance, document)?;
+            check_symmetric(&compliance, item.document)?;
         }
         _ => {
-            return document.fail(Diagnostic::new(item.key_span.clone(), "expected either `diagonal` or `matrix`")
+            return item.document.fail(Diagnostic::new(item.key_span.clone(), "expected either `diagonal` or `matrix`")
                     .label("exactly one of them is required")
                     .help("write { diagonal = [six] } or { matrix = [[six], …] }, in the order of e_x e_y e_z e_s e_r e_p"));
         }
@@ -111,7 +111,7 @@ fn dimension(row: usize, column: usize) -> Dimension {
 }
 
 /// Checks symmetry, which follows from reciprocity.
-fn check_symmetric(compliance: &Compliance, document: &mut Document) -> Option<()> {
+fn check_symmetric(compliance: &Compliance, document: &Document) -> Option<()> {
     for (i, row) in compliance.iter().enumerate() {
         for (j, entry) in row.iter().enumerate().take(i) {
             let (Some(below), Some(above)) = (entry, &compliance[j][i]) else { continue };

@@ -4,18 +4,14 @@
 use abbe_core::VariableKind;
 
 use super::declarations::Declarations;
-use crate::document::{Document, Section};
+use crate::document::Section;
 use crate::expr::{Dimension, Symbol};
 use crate::manipulator::Fitted;
 use crate::value::find_name;
 
 /// Reads the table, if there is one.
-pub(super) fn read_fitted(
-    root: &Section<'_>,
-    declarations: &Declarations,
-    document: &mut Document,
-) -> Vec<Fitted> {
-    let section = root.get("fitted").and_then(|item| document.section(&item));
+pub(super) fn read_fitted(root: &Section<'_>, declarations: &Declarations) -> Vec<Fitted> {
+    let section = root.get("fitted").and_then(|item| item.section());
     let variables = declarations.variables.iter().map(|variable| match variable.kind {
         VariableKind::Revolute => (variable.name.as_str(), Dimension::NONE),
         VariableKind::Prismatic => (variable.name.as_str(), Dimension::LENGTH),
@@ -25,10 +21,10 @@ pub(super) fn read_fitted(
     let mut fitted = Vec::new();
     for item in section.iter().flat_map(Section::items) {
         let place = item.key_span.clone();
-        let Some(found) = find_name(document, place, &item.key, &names, "variable or input") else {
+        let Some(found) = find_name(root.document, place, &item.key, &names, "variable or input") else {
             continue;
         };
-        let Some(range) = declarations.interval(&item, dimensions[found], document) else { continue };
+        let Some(range) = declarations.interval(&item, dimensions[found]) else { continue };
         let symbol = match found.checked_sub(declarations.variables.len()) {
             None => Symbol::Variable(found),
             Some(input) => Symbol::Input(input),

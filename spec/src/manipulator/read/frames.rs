@@ -6,7 +6,7 @@ use super::keys;
 use super::rigid;
 use crate::degrees::check_angle;
 use crate::diagnostic::Diagnostic;
-use crate::document::{Document, Item, Section};
+use crate::document::{Item, Section};
 use crate::expr::{
     Allowed, Dimension, Elementary, Entry, Expression, Motion, Scope, Symbol, parse_transform,
 };
@@ -16,27 +16,17 @@ use crate::manipulator::{DhConvention, Factor, Matrix};
 pub(super) type OwnVariable = Option<(Symbol, VariableKind)>;
 
 /// Reads the transform of a frame or tool, and records angles that are probably in degrees.
-pub(super) fn read_factors(
-    section: &Section<'_>,
-    own: OwnVariable,
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<Vec<Factor>> {
-    let factors = read_form(section, own, scope, document)?;
+pub(super) fn read_factors(section: &Section<'_>, own: OwnVariable, scope: &Scope) -> Option<Vec<Factor>> {
+    let factors = read_form(section, own, scope)?;
     for factor in &factors {
         if let Factor::Elementary(Elementary { motion: R, amount, .. }) = factor {
-            check_angle(amount, document);
+            check_angle(amount, section.document);
         }
     }
     Some(factors)
 }
 
-fn read_form(
-    section: &Section<'_>,
-    own: OwnVariable,
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<Vec<Factor>> {
+fn read_form(section: &Section<'_>, own: OwnVariable, scope: &Scope) -> Option<Vec<Factor>> {
     // The forms exclude each other; `axis` belongs to `origin`.
     let forms = keys::TRANSFORM.names().filter(|key| *key != "axis");
     let forms: Vec<Item<'_>> = forms.filter_map(|form| section.get(form)).collect();
@@ -45,37 +35,37 @@ fn read_form(
         let message = format!("{} has both `{}` and `{}`", section.name, first.key, second.key);
         let help = "keep one of them";
         let mistake = Diagnostic::new(second.key_span.clone(), message).label("one too many");
-        return document.fail(mistake.context(first.key_span.clone(), "the first one").help(help));
+        return section.document.fail(mistake.context(first.key_span.clone(), "the first one").help(help));
     }
     if let (Some(axis), Some(form)) = (&axis, forms.first().filter(|form| form.key != "origin")) {
         let message = format!("`axis` belongs to `origin`, not to `{}`", form.key);
-        return document.refuse(axis.key_span.clone(), message, "leave `axis` out");
+        return axis.refuse_key(message, "leave `axis` out");
     }
     let Some(form) = forms.first() else {
         if axis.is_some() {
-            return about_axis(axis.as_ref(), section, own, scope, document);
+            return about_axis(axis.as_ref(), section, own, scope);
         }
         let help = "give one of `transform`, `matrix`, `dh`, `mdh`, `origin`";
         let mistake = Diagnostic::new(section.span.clone(), format!("{} has no transform", section.name));
-        return document.fail(mistake.label("no transform from the previous frame").help(help));
+        return section.document.fail(mistake.label("no transform from the previous frame").help(help));
     };
     match form.key.as_str() {
         "transform" => {
-            let (text, place) = document.text(form)?;
-            let factors = parse_transform(text, &place, scope, &mut document.found)?;
+            let (text, place) = form.located_text()?;
+            let factors = parse_transform(text, &place, scope, &mut section.document.found.borrow_mut())?;
             if factors.is_empty() {
                 let label = "expected a product of Tx, Ty, Tz, Rx, Ry, Rz";
                 let mistake = Diagnostic::new(form.span(), "this transform is empty");
-                return document.fail(mistake.label(label).help("write `Tx(0)` for the identity"));
+                return section.document.fail(mistake.label(label).help("write `Tx(0)` for the identity"));
             }
             Some(factors.into_iter().map(Factor::Elementary).collect())
         }
-        "matrix" => read_matrix(form, scope, document).map(|matrix| vec![Factor::Matrix(Box::new(matrix))]),
-        "dh" => denavit_hartenberg(form, scope, document, DhConvention::Standard),
-        "mdh" => denavit_hartenberg(form, scope, document, DhConvention::Modified),
+        "matrix" => read_matrix(form, scope).map(|matrix| vec![Factor::Matrix(Box::new(matrix))]),
+        "dh" => denavit_hartenberg(form, scope, DhConvention::Standard),
+        "mdh" => denavit_hartenberg(form, scope, DhConvention::Modified),
         _ => {
-            let mut factors = origin(form, scope, document);
-            let motion = about_axis(axis.as_ref(), section, own, scope, document);
+            let mut factors = origin(form, scope);
+            let motion = about_axis(axis.as_ref(), section, own, scope);
             factors.as_mut()?.extend(motion?);
             factors
         }
@@ -98,12 +88,12 @@ pub(super) fn motion_dimension(motion: Motion) -> Dimension {
     }
 }
 
-fn read_matrix(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Matrix> {
-    let rows: [Item<'_>; 4] = document.entries(item, "four rows of four entries")?;
+fn read_matrix(item: &Item<'_>, scope: &Scope) -> Option<Matrix> {
+    let rows: [Item<'_>; 4] = item.entries("four rows of four entries")?;
     let mut read = Vec::new();
     let mut complete = true;
     for (i, row) in rows.iter().enumerate() {
-        let Some(entries) = document.entries::<4>(row, "four rows of four entries") else {
+        let Some(entries) = row.entries::<4>("four rows of four entries") else {
             complete = false;
             continue;
         };
@@ -114,7 +104,7 @@ fn read_matrix(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Optio
                 _ => (Dimension::NONE, "an entry of the rotation"),
             };
             let expected = Entry { dimension: Some(dimension), what, names: Allowed::Geometry };
-            match document.expression(entry, scope, expected) {
+            match entry.expression(scope, expected) {
                 Some(expression) => read.push(expression),
                 None => complete = false,
             }
@@ -128,7 +118,7 @@ fn read_matrix(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Optio
         if entry.constant() != Some(expected) {
             let help = "the upper left 3×3 block is the rotation, the last column is the position";
             let mistake = Diagnostic::new(entry.span(), "the last row of a rigid motion is 0 0 0 1");
-            return document.fail(mistake.label(format!("expected {expected}")).help(help));
+            return item.document.fail(mistake.label(format!("expected {expected}")).help(help));
         }
     }
     let mut rows = read.chunks_exact(4).map(|row| row.to_vec().try_into().ok());
@@ -136,37 +126,31 @@ fn read_matrix(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Optio
     Some(Matrix { rows, span: item.span() })
 }
 
-fn denavit_hartenberg(
-    item: &Item<'_>,
-    scope: &Scope,
-    document: &mut Document,
-    convention: DhConvention,
-) -> Option<Vec<Factor>> {
-    let section = document.table(item, format!("`{}`", item.key), &[&keys::DENAVIT_HARTENBERG])?;
+fn denavit_hartenberg(item: &Item<'_>, scope: &Scope, convention: DhConvention) -> Option<Vec<Factor>> {
+    let section = item.table(format!("`{}`", item.key), &[&keys::DENAVIT_HARTENBERG])?;
     let factors = convention.order().map(|number| {
         let (key, (motion, axis)) = (number.name(), number.motion());
         let what = format!("`{key}`");
         let expected =
             Entry { dimension: Some(motion_dimension(motion)), what: &what, names: Allowed::Geometry };
-        let entry = section.required(key, document)?;
-        let amount = document.expression(&entry, scope, expected)?;
+        let amount = section.required(key)?.expression(scope, expected)?;
         Some(Factor::Elementary(Elementary { motion, axis, amount }))
     });
     factors.into_iter().collect()
 }
 
 /// Reads a URDF origin: `T(xyz) Rz(y) Ry(p) Rx(r)`.
-fn origin(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec<Factor>> {
-    let section = document.table(item, "`origin`", &[&keys::ORIGIN])?;
-    let mut three = |key: &str, motion: Motion| -> Option<Vec<Factor>> {
+fn origin(item: &Item<'_>, scope: &Scope) -> Option<Vec<Factor>> {
+    let section = item.table("`origin`", &[&keys::ORIGIN])?;
+    let three = |key: &str, motion: Motion| -> Option<Vec<Factor>> {
         let Some(item) = section.get(key) else {
             return Some(Vec::new());
         };
-        let entries: [Item<'_>; 3] = document.entries(&item, "three numbers")?;
+        let entries: [Item<'_>; 3] = item.entries("three numbers")?;
         let what = format!("an entry of `{key}`");
         let expected =
             Entry { dimension: Some(motion_dimension(motion)), what: &what, names: Allowed::Geometry };
-        let amounts = entries.map(|entry| document.expression(&entry, scope, expected));
+        let amounts = entries.map(|entry| entry.expression(scope, expected));
         let factor = |(axis, amount): (usize, Option<Expression>)| {
             Some(Factor::Elementary(Elementary { motion, axis, amount: amount? }))
         };
@@ -184,14 +168,13 @@ fn about_axis(
     section: &Section<'_>,
     own: OwnVariable,
     scope: &Scope,
-    document: &mut Document,
 ) -> Option<Vec<Factor>> {
     let Some((variable, kind)) = own else {
         if let Some(item) = item {
             let message = format!("{} has an axis but no variable", section.name);
             let help = "add `variable = { … }`, or leave `axis` out";
             let mistake = Diagnostic::new(item.key_span.clone(), message);
-            return document.fail(mistake.label("no variable to move along or about it").help(help));
+            return section.document.fail(mistake.label("no variable to move along or about it").help(help));
         }
         return Some(Vec::new());
     };
@@ -201,10 +184,10 @@ fn about_axis(
     };
     let mut axis = [1.0, 0.0, 0.0];
     if let Some(item) = item {
-        let entries: [Item<'_>; 3] = document.entries(item, "three numbers")?;
+        let entries: [Item<'_>; 3] = item.entries("three numbers")?;
         let what = "an entry of `axis`";
         let expected = Entry { dimension: Some(Dimension::NONE), what, names: Allowed::Nothing };
-        let read = entries.map(|entry| document.constant(&entry, scope, expected).map(|read| read.0));
+        let read = entries.map(|entry| entry.constant(scope, expected).map(|read| read.0));
         let [Some(x), Some(y), Some(z)] = read else {
             return None;
         };
@@ -217,7 +200,7 @@ fn about_axis(
                 "an axis is a unit vector such as [0, 0, 1]".to_owned()
             };
             let mistake = Diagnostic::new(item.span(), "`axis` must be a unit vector");
-            return document.fail(mistake.label(format!("its length is {length}")).help(help));
+            return section.document.fail(mistake.label(format!("its length is {length}")).help(help));
         }
     }
     let span = item.map_or(section.span.clone(), Item::span);

@@ -9,8 +9,8 @@ use crate::manipulator::{Loop, Tree, Variable};
 
 /// Records loops without passive variables, passive variables without a loop, and the parts with
 /// too many or too few equations.
-pub(super) fn check_freedoms(tree: Tree<'_>, declarations: &Declarations, document: &mut Document) {
-    let before = document.found.len();
+pub(super) fn check_freedoms(tree: Tree<'_>, declarations: &Declarations, document: &Document) {
+    let before = document.mistakes();
     let moved: Vec<Vec<usize>> = tree
         .loops
         .iter()
@@ -29,7 +29,7 @@ pub(super) fn check_freedoms(tree: Tree<'_>, declarations: &Declarations, docume
             document.mistake(without_loop(variable, declarations));
         }
     }
-    if document.found.len() == before {
+    if document.mistakes() == before {
         let assignment = Assignment::new(tree.loops, moved, declarations.passive.len());
         for part in assignment.unbalanced() {
             document.mistake(part.mistake(tree.loops, &declarations.passive));

@@ -14,7 +14,7 @@ pub(super) fn check_sources_in_loops(
     tool: &[Factor],
     sources: &[Source],
     declarations: &Declarations,
-    document: &mut Document,
+    document: &Document,
 ) {
     if tree.loops.is_empty() {
         return;

@@ -4,36 +4,31 @@ use super::choices::{LOAD_AXES, TOOL};
 use super::effects::find_frame;
 use super::keys;
 use crate::diagnostic::Diagnostic;
-use crate::document::{Document, Item, Section};
+use crate::document::{Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};
 use crate::manipulator::{Axes, Cause, ChainNumber, Effect, Load, Point, Source, Tree, Variable};
 
 /// Reads all loads of a spec.
-pub(super) fn read_loads(
-    root: &Section<'_>,
-    tree: Tree<'_>,
-    scope: &Scope,
-    document: &mut Document,
-) -> Vec<Load> {
-    let items = root.get("load").and_then(|item| document.array_of_tables(&item, "load"));
+pub(super) fn read_loads(root: &Section<'_>, tree: Tree<'_>, scope: &Scope) -> Vec<Load> {
+    let items = root.get("load").and_then(|item| item.array_of_tables("load"));
     let mut loads = Vec::new();
     for item in items.unwrap_or_default() {
-        if let Some(mut section) = document.section(&item) {
+        if let Some(mut section) = item.section() {
             section.name = "this [[load]]".to_owned();
-            section.check_keys(&[&keys::LOAD], document);
+            section.check_keys(&[&keys::LOAD]);
             for text in ["name", "description", "reference"] {
-                section.optional_text(text, document);
+                section.optional_text(text);
             }
-            loads.extend(read_load(&section, tree, scope, document));
+            loads.extend(read_load(&section, tree, scope));
         }
     }
     loads
 }
 
-fn read_load(section: &Section<'_>, tree: Tree<'_>, scope: &Scope, document: &mut Document) -> Option<Load> {
+fn read_load(section: &Section<'_>, tree: Tree<'_>, scope: &Scope) -> Option<Load> {
     let acts = ["mass", "force", "moment"].map(|key| section.get(key));
     if acts.iter().all(Option::is_none) {
-        document.mistake(
+        section.document.mistake(
             Diagnostic::new(section.span.clone(), "this [[load]] is empty")
                 .label("no `mass`, `force` or `moment` here")
                 .help("add a `mass`, whose weight acts under gravity, or a `force` or `moment` of three components"),
@@ -43,7 +38,7 @@ fn read_load(section: &Section<'_>, tree: Tree<'_>, scope: &Scope, document: &mu
     if let (None, None, Some(axes)) = (&force, &moment, section.get("axes")) {
         let help = "remove `axes`: the weight of a mass acts along `gravity`";
         let mistake = Diagnostic::new(axes.key_span, "`axes` without `force` or `moment`");
-        document.mistake(mistake.label("the axes of `force` and `moment`").help(help));
+        section.document.mistake(mistake.label("the axes of `force` and `moment`").help(help));
     }
     let mass = optional(mass, |item| {
         let entry = Entry {
@@ -51,21 +46,17 @@ fn read_load(section: &Section<'_>, tree: Tree<'_>, scope: &Scope, document: &mu
             what: "the mass of a load",
             names: Allowed::Everything,
         };
-        document.expression(item, scope, entry)
+        item.expression(scope, entry)
     });
-    let force = optional(force, |item| {
-        vector(item, Dimension::FORCE, "a component of a load's force", scope, document)
-    });
-    let moment = optional(moment, |item| {
-        vector(item, Dimension::MOMENT, "a component of a load's moment", scope, document)
-    });
-    let axes = section.get("axes").map_or(Some(Axes::Frame), |item| document.choice(&item, &LOAD_AXES));
-    let frame = section.required("frame", document).and_then(|item| find_frame(&item, tree.frames, document));
+    let force =
+        optional(force, |item| vector(item, Dimension::FORCE, "a component of a load's force", scope));
+    let moment =
+        optional(moment, |item| vector(item, Dimension::MOMENT, "a component of a load's moment", scope));
+    let axes = section.get("axes").map_or(Some(Axes::Frame), |item| item.choice(&LOAD_AXES));
+    let frame = section.required("frame").and_then(|item| find_frame(&item, tree.frames));
     let point = match section.get("point") {
-        Some(item) if item.is_text() => read_tool_point(&item, frame, tree, document),
-        Some(item) => {
-            vector(&item, Dimension::LENGTH, "a coordinate of a load", scope, document).map(Point::Here)
-        }
+        Some(item) if item.is_text() => read_tool_point(&item, frame, tree),
+        Some(item) => vector(&item, Dimension::LENGTH, "a coordinate of a load", scope).map(Point::Here),
         None => {
             let zero = || Expression::number(0.0, Dimension::LENGTH, section.span.clone());
             Some(Point::Here([zero(), zero(), zero()]))
@@ -83,43 +74,28 @@ fn optional<'d, T>(item: Option<Item<'d>>, read: impl FnOnce(&Item<'d>) -> Optio
 }
 
 /// Reads `point = "tool"`, for a load on the frame that carries the tool.
-fn read_tool_point(
-    item: &Item<'_>,
-    frame: Option<usize>,
-    tree: Tree<'_>,
-    document: &mut Document,
-) -> Option<Point> {
-    document.choice(item, &TOOL)?;
+fn read_tool_point(item: &Item<'_>, frame: Option<usize>, tree: Tree<'_>) -> Option<Point> {
+    item.choice(&TOOL)?;
     if let Some(carrier) = tree.frames.get(tree.tool_frame)
         && frame.is_some_and(|frame| frame != tree.tool_frame)
     {
         let name = &carrier.name;
         let help = format!("write frame = \"{name}\", or the three coordinates of the point");
         let mistake = Diagnostic::new(item.span(), "the tool point is not fixed to this frame");
-        return document.fail(mistake.label(format!("it is fixed to \"{name}\"")).help(help));
+        return item.document.fail(mistake.label(format!("it is fixed to \"{name}\"")).help(help));
     }
     Some(Point::Tool)
 }
 
 /// Reads `gravity`, in `[manipulator]` or at the top of the file.
-pub(super) fn read_gravity(
-    item: &Item<'_>,
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<[Expression; 3]> {
-    vector(item, Dimension::ACCELERATION, "a component of gravity", scope, document)
+pub(super) fn read_gravity(item: &Item<'_>, scope: &Scope) -> Option<[Expression; 3]> {
+    vector(item, Dimension::ACCELERATION, "a component of gravity", scope)
 }
 
-fn vector(
-    item: &Item<'_>,
-    dimension: Dimension,
-    what: &str,
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<[Expression; 3]> {
-    let entries: [Item<'_>; 3] = document.entries(item, "three numbers")?;
+fn vector(item: &Item<'_>, dimension: Dimension, what: &str, scope: &Scope) -> Option<[Expression; 3]> {
+    let entries: [Item<'_>; 3] = item.entries("three numbers")?;
     let entry = Entry { dimension: Some(dimension), what, names: Allowed::Everything };
-    let read = entries.map(|item| document.expression(&item, scope, entry));
+    let read = entries.map(|item| item.expression(scope, entry));
     let [x, y, z] = read;
     Some([x?, y?, z?])
 }
@@ -132,7 +108,6 @@ pub(super) fn check_loaded(
     loads: &[Load],
     joints: &[Variable],
     gravity: bool,
-    document: &mut Document,
 ) {
     let effects = || sources.iter().flat_map(|source| &source.effects);
     let weight = |effect: &Effect| match &effect.cause {
@@ -152,7 +127,7 @@ pub(super) fn check_loaded(
             if !load && !effects().any(|other| tree.is_loaded(frame, other.frame) && weight(other).is_some())
             {
                 let carried = if tree.is_serial() { "a later one" } else { "one that hangs on it" };
-                document.mistake(
+                root.document.mistake(
                     Diagnostic::new(span.clone(), format!("no load acts on the source \"{}\"", source.name))
                         .label("without a load it causes no error")
                         .help(format!(
@@ -168,10 +143,10 @@ pub(super) fn check_loaded(
     if let Some(item) = root.get("load").filter(|_| loads.iter().any(|load| load.mass.is_some())) {
         let help = "add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0";
         let mistake = Diagnostic::new(item.key_span, "masses have no weight without `gravity`");
-        document.mistake(mistake.label("a load with a mass").help(help));
+        root.document.mistake(mistake.label("a load with a mass").help(help));
     } else if let Some(mass) = effects().find_map(weight) {
         let message = "`mass_per_length` has no effect without `gravity`";
         let help = "add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0";
-        document.mistake(Diagnostic::new(mass.span(), message).label("it weighs nothing").help(help));
+        root.document.mistake(Diagnostic::new(mass.span(), message).label("it weighs nothing").help(help));
     }
 }

@@ -29,34 +29,32 @@ pub(super) fn read_loops<'d>(
     root: &Section<'d>,
     named: &[Named<'_>],
     declarations: &mut Declarations,
-    document: &mut Document,
 ) -> Vec<RawLoop<'d>> {
     let mut loops: Vec<RawLoop<'d>> = Vec::new();
     let Some(item) = root.get("loop") else { return loops };
-    let Some(items) = document.array_of_tables(&item, "loop") else { return loops };
+    let Some(items) = item.array_of_tables("loop") else { return loops };
     let help = "replace parts that move as one body by a single frame";
-    if document.at_most(&item, items.len(), MOST_LOOPS, "loops", help).is_none() {
+    if item.at_most(items.len(), MOST_LOOPS, "loops", help).is_none() {
         return loops;
     }
     for (index, item) in items.iter().enumerate() {
-        let Some(mut section) = document.section(item) else { continue };
-        section.name = format!("loop {}", index + 1);
+        let Some(mut section) = item.named(format!("loop {}", index + 1)) else { continue };
         let first = |name: &str| {
             let known = loops.iter().find(|other| other.name == name);
             known.map(|other| other.section.span.clone())
         };
         let help = "rename one";
-        let name = read_title(&mut section, "loop", first, help, document).unwrap_or_default();
-        section.check_keys(&[&keys::LOOP], document);
-        let frames = section.required("frames", document).and_then(|item| {
-            let pair: [Item<'_>; 2] = document.entries(&item, "two names of frames")?;
-            let [first, second] = pair.map(|item| frame_or_base(&item, named, document));
-            same_frame(&item, [first?, second?], document)
+        let name = read_title(&mut section, "loop", first, help).unwrap_or_default();
+        section.check_keys(&[&keys::LOOP]);
+        let frames = section.required("frames").and_then(|item| {
+            let pair: [Item<'_>; 2] = item.entries("two names of frames")?;
+            let [first, second] = pair.map(|item| frame_or_base(&item, named));
+            same_frame(&item, [first?, second?])
         });
         let end = frames.and_then(|[first, second]| first.or(second)).unwrap_or(0);
         let own = section.get("variable").and_then(|item| {
-            check_driven(&item, document);
-            declarations.read_variable(end, &item, document)
+            check_driven(&item);
+            declarations.read_variable(end, &item)
         });
         loops.push(RawLoop { section, name, frames, own });
     }
@@ -64,39 +62,35 @@ pub(super) fn read_loops<'d>(
 }
 
 /// Returns the two frames unless they are the same.
-fn same_frame(
-    item: &Item<'_>,
-    frames: [Option<usize>; 2],
-    document: &mut Document,
-) -> Option<[Option<usize>; 2]> {
+fn same_frame(item: &Item<'_>, frames: [Option<usize>; 2]) -> Option<[Option<usize>; 2]> {
     if frames[0] != frames[1] {
         return Some(frames);
     }
     let help = "name the last frames of the two branches that meet";
     let mistake = Diagnostic::new(item.span(), "a loop closes between two frames");
-    document.fail(mistake.label("the same frame twice").help(help))
+    item.document.fail(mistake.label("the same frame twice").help(help))
 }
 
 /// Records `passive` in the variable of a leg: the loop itself determines a length without a drive.
-fn check_driven(variable: &Item<'_>, document: &mut Document) {
+fn check_driven(variable: &Item<'_>) {
     let Some(passive) = variable.key_of_table("passive") else { return };
     let help = "remove `passive` if the leg has a drive, or remove this [[loop]] if it has none";
     let mistake = Diagnostic::new(passive.key_span, "the variable of a leg cannot be `passive`");
-    document.mistake(mistake.label("a length without a drive closes nothing").help(help));
+    variable.document.mistake(mistake.label("a length without a drive closes nothing").help(help));
 }
 
 impl RawLoop<'_> {
     /// Reads the condition.
-    pub(super) fn read(&self, declarations: &Declarations, document: &mut Document) -> Option<Loop> {
-        let closes = self.section.required("closes", document)?;
+    pub(super) fn read(&self, declarations: &Declarations, document: &Document) -> Option<Loop> {
+        let closes = self.section.required("closes")?;
         let coordinates = match closes.is_text() {
-            true => document.choice(&closes, &CLOSURES)?.to_vec(),
-            false => read_coordinates(&closes, document)?,
+            true => closes.choice(&CLOSURES)?.to_vec(),
+            false => read_coordinates(&closes)?,
         };
         let closure = match coordinates.is_empty() {
             true => Closure::Distance(self.read_length(declarations, document)?),
             false => {
-                self.check_without_length(&closes, document)?;
+                self.check_without_length(&closes)?;
                 Closure::Coordinates(coordinates)
             }
         };
@@ -104,11 +98,11 @@ impl RawLoop<'_> {
     }
 
     /// Reads the length of a leg, which depends on its own variable, or of a strut.
-    fn read_length(&self, declarations: &Declarations, document: &mut Document) -> Option<Expression> {
-        let item = self.section.required("length", document)?;
+    fn read_length(&self, declarations: &Declarations, document: &Document) -> Option<Expression> {
+        let item = self.section.required("length")?;
         let what = "the length between two frames";
         let entry = Entry { dimension: Some(Dimension::LENGTH), what, names: Allowed::Geometry };
-        let length = document.expression(&item, &declarations.scope, entry)?;
+        let length = item.expression(&declarations.scope, entry)?;
         if let Some(own) = self.own
             && let Some(variable) = declarations.variable(own)
             && declarations.scope.names.get(&variable.name).is_some_and(|name| name.symbol == own)
@@ -124,7 +118,7 @@ impl RawLoop<'_> {
     }
 
     /// Records the keys of a leg in a loop that closes at coordinates.
-    fn check_without_length(&self, closes: &Item<'_>, document: &mut Document) -> Option<()> {
+    fn check_without_length(&self, closes: &Item<'_>) -> Option<()> {
         let (item, help) = match (self.section.get("length"), self.section.get("variable")) {
             (None, None) => return Some(()),
             (Some(length), _) => (length, "remove it, or write closes = \"distance\""),
@@ -132,27 +126,28 @@ impl RawLoop<'_> {
         };
         let message = format!("`{}` belongs to `closes = \"distance\"`", item.key);
         let mistake = Diagnostic::new(item.key_span, message).label("only a leg has one");
-        document.fail(mistake.context(closes.key_span.clone(), "this closes at coordinates").help(help))
+        let mistake = mistake.context(closes.key_span.clone(), "this closes at coordinates");
+        closes.document.fail(mistake.help(help))
     }
 }
 
 /// Reads a list of coordinates, in ascending order.
-fn read_coordinates(item: &Item<'_>, document: &mut Document) -> Option<Vec<usize>> {
+fn read_coordinates(item: &Item<'_>) -> Option<Vec<usize>> {
     let names: Vec<(&str, usize)> = Closure::COORDINATES.into_iter().zip(0..).collect();
-    let entries = document.array(item, "a list of coordinates, or \"point\", \"pose\" or \"distance\"")?;
+    let entries = item.array("a list of coordinates, or \"point\", \"pose\" or \"distance\"")?;
     let mut coordinates = Vec::new();
     for entry in &entries {
-        let coordinate = document.choice(entry, &names)?;
+        let coordinate = entry.choice(&names)?;
         if coordinates.contains(&coordinate) {
             let mistake = Diagnostic::new(entry.span(), "this coordinate is listed twice");
-            return document.fail(mistake.label("second use").help("remove one of them"));
+            return item.document.fail(mistake.label("second use").help("remove one of them"));
         }
         coordinates.push(coordinate);
     }
     if coordinates.is_empty() {
         let help = "list coordinates such as [\"x\", \"y\"], or write \"point\", \"pose\" or \"distance\"";
         let mistake = Diagnostic::new(item.span(), "`closes` is empty");
-        return document.fail(mistake.label("nothing closes here").help(help));
+        return item.document.fail(mistake.label("nothing closes here").help(help));
     }
     coordinates.sort_unstable();
     Some(coordinates)

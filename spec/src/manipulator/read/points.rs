@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::bounded::{UnreadableFile, not_text};
 use crate::cell::meant;
 use crate::diagnostic::{Diagnostic, Span, suggestion};
-use crate::document::{Document, Item};
+use crate::document::Item;
 use crate::expr::LARGEST as LARGEST_NUMBER;
 
 /// Maximum size of a file of points, in bytes.
@@ -24,20 +24,20 @@ pub(super) struct Columns {
 
 impl Columns {
     /// Reads the file that an item names, relative to the spec, and records it as part of the spec.
-    pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Self> {
-        let (file, span) = (document.string(item)?, item.span());
-        let fail = |document: &mut Document, message: String, help: &str| {
-            document.mistake(Diagnostic::new(span.clone(), message).help(help));
+    pub(super) fn read(item: &Item<'_>) -> Option<Self> {
+        let (file, span) = (item.string()?, item.span());
+        let fail = |message: String, help: &str| {
+            item.document.mistake(Diagnostic::new(span.clone(), message).help(help));
         };
-        let Some(folder) = &document.folder else {
+        let Some(folder) = &item.document.folder else {
             let message =
                 format!("cannot read `{file}`: this spec is not in a file, so relative paths have no folder");
-            fail(document, message, "read the spec from a file, or include the points: `x = […]`, `y = […]`");
+            fail(message, "read the spec from a file, or include the points: `x = […]`, `y = […]`");
             return None;
         };
         let path: PathBuf = folder.join(&file);
         let mut bytes = Vec::new();
-        let opened = document.named_file(&path, LARGEST);
+        let opened = item.document.named_file(&path, LARGEST);
         let read = opened.and_then(|mut input| input.read_to_end(&mut bytes)).map_err(|error| {
             match UnreadableFile::from_error(&error, "the path is relative to the folder of the spec") {
                 UnreadableFile { help, .. } if error.raw_os_error().is_some() => {
@@ -55,12 +55,12 @@ impl Columns {
         let bytes = match text {
             Ok(bytes) => bytes,
             Err(UnreadableFile { message, help }) => {
-                fail(document, message, &help);
+                fail(message, &help);
                 return None;
             }
         };
-        document.files.push(path.clone());
-        document.beside.push((path, bytes.clone()));
+        item.document.files.borrow_mut().push(path.clone());
+        item.document.beside.borrow_mut().push((path, bytes.clone()));
         let mut reader =
             csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(&bytes[..]);
         let result = reader
@@ -74,23 +74,23 @@ impl Columns {
         match result {
             Ok((names, rows)) => Some(Self { file, span, names, rows }),
             Err(error) => {
-                fail(document, format!("`{file}` is not a table: {}", in_words(&error)), FORM);
+                fail(format!("`{file}` is not a table: {}", in_words(&error)), FORM);
                 None
             }
         }
     }
 
     /// Returns the numbers of a column.
-    pub(super) fn numbers(&self, item: &Item<'_>, document: &mut Document) -> Option<Vec<f64>> {
-        let name = document.string(item)?;
+    pub(super) fn numbers(&self, item: &Item<'_>) -> Option<Vec<f64>> {
+        let name = item.string()?;
         let Some(index) = self.names.iter().position(|known| *known == name) else {
             let known: Vec<&str> = self.names.iter().map(String::as_str).collect();
             let message = format!("`{}` has no column `{}`", self.file, name.escape_debug());
             let help = match &known[..] {
                 [only] if only.contains([';', '\t']) => FORM.to_owned(),
-                _ => suggestion(document.found.len(), &name, &known, "columns"),
+                _ => suggestion(item.document.mistakes(), &name, &known, "columns"),
             };
-            return document.refuse(item.span(), message, help);
+            return item.refuse(message, help);
         };
         let mut numbers = Vec::with_capacity(self.rows.len());
         for (line, row) in &self.rows {
@@ -101,14 +101,15 @@ impl Columns {
                     let message =
                         format!("line {line} of `{}`: `{name}` is too large to compute with", self.file);
                     let mistake = Diagnostic::new(item.span(), message).label(format!("found `{number:e}`"));
-                    return document
+                    return item
+                        .document
                         .fail(mistake.help("the maximum is 1e150; remove rows without a measurement"));
                 }
                 _ => {
                     let message = format!("line {line} of `{}`: `{name}` is not a number", self.file);
                     let label = format!("found `{}`", cell.escape_debug());
                     let mistake = Diagnostic::new(item.span(), message).label(label);
-                    return document.fail(mistake.help("remove rows without a measurement"));
+                    return item.document.fail(mistake.help("remove rows without a measurement"));
                 }
             }
         }
@@ -142,17 +143,18 @@ pub(super) struct Points<'c> {
 
 impl Points<'_> {
     /// Returns the points sorted by x, or records a mistake with its row.
-    pub(super) fn check(self, table: &Item<'_>, document: &mut Document) -> Option<Vec<[f64; 2]>> {
+    pub(super) fn check(self, table: &Item<'_>) -> Option<Vec<[f64; 2]>> {
         let Self { x, y, .. } = &self;
         if x.len() != y.len() {
             let message = format!("`x` has {} numbers, but `y` has {}", x.len(), y.len());
-            return document.refuse(table.key_span.clone(), message, "every point needs an x and a y");
+            return table.refuse_key(message, "every point needs an x and a y");
         }
         if x.len() < 2 {
             let message =
                 format!("`{}` has {}", table.key, if x.is_empty() { "no points" } else { "one point" });
             let mistake = Diagnostic::new(table.key_span.clone(), message);
-            return document
+            return table
+                .document
                 .fail(mistake.label("at least two are needed").help("use a parameter for a constant"));
         }
         let falls = x[1] < x[0];
@@ -167,7 +169,7 @@ impl Points<'_> {
             if self.columns.is_none() {
                 mistake = mistake.context(first.0, format!("and {} here", x[before]));
             }
-            return document.fail(
+            return table.document.fail(
                 mistake.help("x must increase or decrease from row to row; average repeated measurements"),
             );
         }

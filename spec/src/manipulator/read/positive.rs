@@ -21,7 +21,7 @@ pub(super) fn check_signs(
     sources: &[Source],
     loads: &[Load],
     declarations: &Declarations,
-    document: &mut Document,
+    document: &Document,
 ) {
     let check = Check { declarations };
     for effect in sources.iter().flat_map(|source| &source.effects) {
@@ -50,7 +50,7 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn beam(&self, beam: &Beam, document: &mut Document) {
+    fn beam(&self, beam: &Beam, document: &Document) {
         let bending = Beam::bending_keys(beam.axis).into_iter().zip(&beam.bending);
         let required = iter::once(("length", &beam.length)).chain(bending);
         let optional = [("GJ", &beam.torsion), ("EA", &beam.extension)];
@@ -80,7 +80,7 @@ impl Check<'_> {
 
     /// Checks that a compliance is positive semidefinite, because `wᵀ C w` is twice the energy: no
     /// diagonal entry and no pivot of a symmetric elimination is negative.
-    fn compliance(&self, compliance: &Compliance, document: &mut Document) {
+    fn compliance(&self, compliance: &Compliance, document: &Document) {
         for (i, row) in compliance.iter().enumerate() {
             if let Some(entry) = &row[i] {
                 let what = format!("the compliance of {}", Component::ALL[i].name());
@@ -112,7 +112,7 @@ impl Check<'_> {
     }
 
     /// Records a negative value; returns `true` if it is negative.
-    fn not_negative(&self, value: &Expression, what: &str, help: &str, document: &mut Document) -> bool {
+    fn not_negative(&self, value: &Expression, what: &str, help: &str, document: &Document) -> bool {
         let Some((_, label)) = self.least(value).filter(|(least, _)| *least < 0.0) else {
             return false;
         };

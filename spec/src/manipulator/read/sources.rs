@@ -21,37 +21,34 @@ const KNOWN: [&Keys; 4] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE, &keys::DEV
 const MOST_SOURCES: usize = 10_000;
 
 /// Reads all sources of a spec.
-pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut Document) -> Vec<Source> {
+pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>) -> Vec<Source> {
     let mut sources: Vec<Source> = Vec::new();
     let Some(item) = root.get("source") else { return sources };
-    let Some(items) = document.array_of_tables(&item, "source") else { return sources };
+    let Some(items) = item.array_of_tables("source") else { return sources };
     let help = "combine similar random sources into one with the root sum of squares of their values";
-    if document.at_most(&item, items.len(), MOST_SOURCES, "sources", help).is_none() {
+    if item.at_most(items.len(), MOST_SOURCES, "sources", help).is_none() {
         return sources;
     }
     let mut spans: Vec<(String, crate::diagnostic::Span)> = Vec::new();
     for item in items {
-        let Some(mut section) = document.section(&item) else {
-            continue;
-        };
-        section.name = "this [[source]]".to_owned();
+        let Some(mut section) = item.named("this [[source]]") else { continue };
         let first = |name: &str| {
             let known = spans.iter().find(|(known, _)| known == name);
             known.map(|(_, span)| span.clone())
         };
         let help = "rename one, or give one source several [[source.effect]] tables";
-        match read_title(&mut section, "source", first, help, document) {
+        match read_title(&mut section, "source", first, help) {
             Some(name) => {
                 spans.push((name.clone(), section.span.clone()));
-                sources.extend(read_source(&section, name, chain, document));
+                sources.extend(read_source(&section, name, chain));
             }
-            None => section.check_keys(&KNOWN, document),
+            None => section.check_keys(&KNOWN),
         }
     }
     for part in parts_of_balls(&mut sources.clone()) {
         if let Some((_, span)) = spans.iter().find(|(known, _)| *known == part.name) {
             let message = format!("\"{}\" is the name of a part of another source", part.name);
-            document.mistake(Diagnostic::new(span.clone(), message).help("rename this source"));
+            root.document.mistake(Diagnostic::new(span.clone(), message).help("rename this source"));
         }
     }
     sources
@@ -62,7 +59,7 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut 
 pub(super) fn input_uncertainties(
     declarations: &Declarations,
     sources: &[Source],
-    document: &mut Document,
+    document: &Document,
 ) -> Vec<Source> {
     let mut uncertainties = Vec::new();
     for (i, input) in declarations.inputs.iter().enumerate().filter(|(_, input)| input.uncertainty > 0.0) {
@@ -104,39 +101,33 @@ pub(super) fn parts_of_balls(sources: &mut [Source]) -> Vec<Source> {
     all
 }
 
-fn read_source(
-    section: &Section<'_>,
-    name: String,
-    chain: Chain<'_>,
-    document: &mut Document,
-) -> Option<Source> {
-    section.check_keys(&KNOWN, document);
-    let class = section.required("class", document);
-    let class = class.and_then(|class| read_class(&class, section, document));
-    let degrees_of_freedom = read_degrees_of_freedom(section, class, chain, document)?;
-    let enabled = section.get("enabled").map_or(Some(true), |item| document.boolean(&item));
-    let scale = section.get("scale").map_or(Some(1.0), |item| read_scale(&item, document));
-    let magnitude = section
-        .get("magnitude")
-        .map_or(Some(None), |item| read_magnitude(&item, class, chain, document).map(Some))?;
+fn read_source(section: &Section<'_>, name: String, chain: Chain<'_>) -> Option<Source> {
+    section.check_keys(&KNOWN);
+    let class = section.required("class");
+    let class = class.and_then(|class| read_class(&class, section));
+    let degrees_of_freedom = read_degrees_of_freedom(section, class, chain)?;
+    let enabled = section.get("enabled").map_or(Some(true), |item| item.boolean());
+    let scale = section.get("scale").map_or(Some(1.0), |item| read_scale(&item));
+    let magnitude =
+        section.get("magnitude").map_or(Some(None), |item| read_magnitude(&item, class, chain).map(Some))?;
     let mut acts = Acts::default();
-    let tables = section.get("effect").and_then(|item| document.array_of_tables(&item, "source.effect"));
+    let tables = section.get("effect").and_then(|item| item.array_of_tables("source.effect"));
     if tables.is_none() || section.items().any(|item| KNOWN[1..].iter().any(|keys| keys.contain(&item.key))) {
-        acts.read(section, chain, document);
+        acts.read(section, chain);
     }
     for item in tables.unwrap_or_default() {
-        if let Some(mut table) = document.section(&item) {
+        if let Some(mut table) = item.section() {
             table.name = format!("an effect of {}", section.name);
-            table.check_keys(&KNOWN[1..], document);
-            acts.read(&table, chain, document);
+            table.check_keys(&KNOWN[1..]);
+            acts.read(&table, chain);
         }
     }
-    let description = section.optional_text("description", document);
-    let reference = section.optional_text("reference", document);
+    let description = section.optional_text("description");
+    let reference = section.optional_text("reference");
     let Acts { effects, deviations } = acts;
     let (class, enabled, scale) = (class?, enabled?, scale?);
     if let Some(distribution) = class.distribution() {
-        check_half_width(distribution, &effects, &deviations, document);
+        check_half_width(distribution, &effects, &deviations, section.document);
         if let Distribution::Ball { parts, .. } = distribution {
             let errors = match &effects[..] {
                 [Effect { cause: Cause::Errors(list), .. }] if deviations.is_empty() => list.len(),
@@ -149,7 +140,7 @@ fn read_source(
                     "give the source {parts} of `e_x` … `e_p` of a `frame`, the semi-axes of the {name}, and nothing else"
                 );
                 let span = section.get("distribution").map_or(section.span.clone(), |item| item.span());
-                return document.refuse(span, message, help);
+                return section.document.refuse(span, message, help);
             }
         }
     }
@@ -159,12 +150,12 @@ fn read_source(
 }
 
 /// Reads `scale`, a pure number that is not negative.
-fn read_scale(item: &Item<'_>, document: &mut Document) -> Option<f64> {
-    let scale = document.quantity(item, Dimension::NONE)?;
+fn read_scale(item: &Item<'_>) -> Option<f64> {
+    let scale = item.quantity(Dimension::NONE)?;
     if scale >= 0.0 {
         return Some(scale);
     }
-    document.refuse(item.span(), "`scale` is negative", "write 0 or a positive number")
+    item.refuse("`scale` is negative", "write 0 or a positive number")
 }
 
 /// Checks that a half-width or standard deviation is not negative. The effects of a random source
@@ -174,7 +165,7 @@ fn check_half_width(
     distribution: Distribution,
     effects: &[Effect],
     deviations: &[Deviation],
-    document: &mut Document,
+    document: &Document,
 ) {
     let Some(mut errors) = deviations.iter().map(Deviation::error).collect::<Option<Vec<&Expression>>>()
     else {
@@ -204,26 +195,21 @@ struct Acts {
 
 impl Acts {
     /// Reads a table with one effect: errors of a frame, or of a number of the chain.
-    fn read(&mut self, section: &Section<'_>, chain: Chain<'_>, document: &mut Document) {
+    fn read(&mut self, section: &Section<'_>, chain: Chain<'_>) {
         if section.items().any(|item| keys::DEVIATION.contain(&item.key)) {
-            self.deviations.extend(read_deviations(section, chain, document).unwrap_or_default());
+            self.deviations.extend(read_deviations(section, chain).unwrap_or_default());
         } else {
-            self.effects.extend(read_effect(section, chain.tree, chain.scope, document));
+            self.effects.extend(read_effect(section, chain.tree, chain.scope));
         }
     }
 }
 
 /// Reads `degrees_of_freedom` of a normal error; infinite without it.
-fn read_degrees_of_freedom(
-    section: &Section<'_>,
-    class: Option<Class>,
-    chain: Chain<'_>,
-    document: &mut Document,
-) -> Option<f64> {
+fn read_degrees_of_freedom(section: &Section<'_>, class: Option<Class>, chain: Chain<'_>) -> Option<f64> {
     let Some(item) = section.get("degrees_of_freedom") else { return Some(f64::INFINITY) };
     let (message, help) = match class {
         None | Some(Class::Random(Distribution::Normal) | Class::Tolerance(Distribution::Normal)) => {
-            return positive(&item, chain, document);
+            return positive(&item, chain);
         }
         Some(Class::Repeatable) => (
             "a repeatable error has no degrees of freedom",
@@ -235,45 +221,40 @@ fn read_degrees_of_freedom(
              measurements: write distribution = \"normal\", or leave them out",
         ),
     };
-    document.refuse(item.key_span, message, help)
+    item.refuse_key(message, help)
 }
 
 /// Reads a positive number of degrees of freedom.
-fn positive(item: &Item<'_>, chain: Chain<'_>, document: &mut Document) -> Option<f64> {
+fn positive(item: &Item<'_>, chain: Chain<'_>) -> Option<f64> {
     let what = "`degrees_of_freedom`";
     let entry = Entry { dimension: Some(Dimension::NONE), what, names: Allowed::Nothing };
-    let (number, _) = document.constant(item, chain.scope, entry)?;
+    let (number, _) = item.constant(chain.scope, entry)?;
     if number > 0.0 {
         return Some(number);
     }
-    document.refuse(item.span(), "`degrees_of_freedom` must be positive", "a standard deviation of n measurements has n - 1; leave it out if the standard deviation is known exactly")
+    item.refuse("`degrees_of_freedom` must be positive", "a standard deviation of n measurements has n - 1; leave it out if the standard deviation is known exactly")
 }
 
 /// Reads `magnitude = { value, standard_deviation, degrees_of_freedom }`: pure numbers.
-fn read_magnitude(
-    item: &Item<'_>,
-    class: Option<Class>,
-    chain: Chain<'_>,
-    document: &mut Document,
-) -> Option<Magnitude> {
+fn read_magnitude(item: &Item<'_>, class: Option<Class>, chain: Chain<'_>) -> Option<Magnitude> {
     if class.and_then(Class::distribution).is_some() {
         let help = "remove `magnitude`: the distribution gives the size of the error";
         let message = "only a repeatable error has a `magnitude`";
-        return document.refuse(item.key_span.clone(), message, help);
+        return item.refuse_key(message, help);
     }
-    let table = document.table(item, "`magnitude`", &[&keys::MAGNITUDE])?;
-    let number = |item: &Item<'_>, document: &mut Document| {
+    let table = item.table("`magnitude`", &[&keys::MAGNITUDE])?;
+    let number = |item: &Item<'_>| {
         let what = format!("`{}` of a magnitude", item.key);
         let entry = Entry { dimension: Some(Dimension::NONE), what: &what, names: Allowed::Nothing };
-        document.constant(item, chain.scope, entry).map(|read| read.0)
+        item.constant(chain.scope, entry).map(|read| read.0)
     };
-    let value = table.get("value").map_or(Some(1.0), |item| number(&item, document))?;
+    let value = table.get("value").map_or(Some(1.0), |item| number(&item))?;
     let standard_deviation = match table.get("standard_deviation") {
         Some(item) => {
-            let read = number(&item, document)?;
+            let read = number(&item)?;
             if read <= 0.0 {
                 let help = "leave it out if the magnitude is unknown";
-                return document.refuse(item.span(), "`standard_deviation` must be positive", help);
+                return item.refuse("`standard_deviation` must be positive", help);
             }
             Some(read)
         }
@@ -282,25 +263,25 @@ fn read_magnitude(
     let degrees_of_freedom = match table.get("degrees_of_freedom") {
         Some(item) if standard_deviation.is_none() => {
             let help = "add `standard_deviation`, or remove `degrees_of_freedom`";
-            return document.refuse(item.key_span, "`degrees_of_freedom` without `standard_deviation`", help);
+            return item.refuse_key("`degrees_of_freedom` without `standard_deviation`", help);
         }
-        Some(item) => positive(&item, chain, document)?,
+        Some(item) => positive(&item, chain)?,
         None => f64::INFINITY,
     };
     Some(Magnitude { value, standard_deviation, degrees_of_freedom })
 }
 
-fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -> Option<Class> {
-    let class = document.choice(item, &CLASSES)?;
+fn read_class(item: &Item<'_>, section: &Section<'_>) -> Option<Class> {
+    let class = item.choice(&CLASSES)?;
     let distribution = section.get("distribution");
     match (class, distribution) {
         (Class::Repeatable, Some(distribution)) => {
-            document.fail(Diagnostic::new(distribution.key_span, "a repeatable error has no distribution")
+            item.document.fail(Diagnostic::new(distribution.key_span, "a repeatable error has no distribution")
                     .context(item.span(), "repeatable")
                     .help("leave `distribution` out, or write class = \"tolerance\" for one unknown value per machine, class = \"random\" for another value each time"))
         }
         (Class::Random(_), None) => {
-            document.fail(Diagnostic::new(item.span(), "a random error needs its distribution")
+            item.document.fail(Diagnostic::new(item.span(), "a random error needs its distribution")
                     .label("no `distribution` here")
                     .help(
                         "add distribution = \"uniform\" or \"triangular\" (values are half-widths), \"normal\" (values are σ) or \
@@ -310,7 +291,7 @@ fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -
         (_, None) => Some(class),
         (_, Some(distribution)) => {
             let choices = Distribution::ALL.map(|distribution| (distribution.name(), distribution));
-            let distribution = document.choice(&distribution, &choices)?;
+            let distribution = distribution.choice(&choices)?;
             Some(match class {
                 Class::Tolerance(_) => Class::Tolerance(distribution),
                 _ => Class::Random(distribution),

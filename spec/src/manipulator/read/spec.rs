@@ -1,7 +1,6 @@
 //! Reads a spec file from top to bottom.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use abbe_core::{LengthUnit, Orientation};
 use sha2::{Digest, Sha256};
@@ -67,44 +66,41 @@ impl Spec {
     }
 
     /// Reads and checks a document.
-    pub fn from_document(mut document: Document) -> Result<Self, Diagnostics> {
-        let text = Arc::clone(&document.text);
-        let tables = document.tables(&text);
-        let spec = tables.and_then(|tables| read(&Section::root(&tables), &mut document));
-        document.finish(spec)
+    pub fn from_document(document: Document) -> Result<Self, Diagnostics> {
+        document.read_tables(read)
     }
 }
 
-fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
-    if !document.is_kind(root, "manipulator") {
+fn read(root: &Section<'_>) -> Option<Spec> {
+    if !root.is_kind("manipulator") {
         return None;
     }
-    root.check_keys(&[&keys::FILE], document);
-    let head = root.required("manipulator", document).and_then(|item| read_head(&item, document));
+    root.check_keys(&[&keys::FILE]);
+    let head = root.required("manipulator").and_then(|item| read_head(&item));
     // Without a length unit, nothing else can be read.
     let head = head?;
     let mut declarations = Declarations::new(head.length);
     // Uses of an invalid table would be reported as well.
-    declarations.read_tables(root, document)?;
-    declarations.read_parameters(root, document);
-    declarations.read_inputs(root, document);
-    let before = document.found.len();
-    let raw_frames = read_frames(root, &mut declarations, document);
+    declarations.read_tables(root)?;
+    declarations.read_parameters(root);
+    declarations.read_inputs(root);
+    let before = root.document.mistakes();
+    let raw_frames = read_frames(root, &mut declarations);
     let named = raw_frames.iter().flatten().map(|raw| (raw.name.as_str(), raw.section.span.clone()));
     let named: Vec<Named<'_>> = named.collect();
-    let raw_loops = read_loops(root, &named, &mut declarations, document);
+    let raw_loops = read_loops(root, &named, &mut declarations);
     let mut complete = true;
     let mut frames = Vec::new();
     for (index, raw) in raw_frames.iter().flatten().enumerate() {
         let parent = match raw.section.get("parent") {
-            Some(item) => read_parent(&item, index, &named, document),
+            Some(item) => read_parent(&item, index, &named),
             None => index.checked_sub(1),
         };
-        let factors = read_frame_factors(raw, &declarations, document);
+        let factors = read_frame_factors(raw, &declarations, root.document);
         complete &= factors.is_some();
         frames.push(Frame {
             name: raw.name.clone(),
-            description: raw.section.optional_text("description", document),
+            description: raw.section.optional_text("description"),
             parent,
             variable: raw.own.and_then(|(own, _)| if let Symbol::Variable(i) = own { Some(i) } else { None }),
             passive: raw.own.and_then(|(own, _)| if let Symbol::Passive(i) = own { Some(i) } else { None }),
@@ -113,49 +109,56 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         });
     }
     let end = end_of_first_chain(&frames);
-    let tool = root
-        .get("tool")
-        .map_or(Some((Vec::new(), end)), |item| read_tool(&item, &named, end, &declarations, document));
+    let tool =
+        root.get("tool").map_or(Some((Vec::new(), end)), |item| read_tool(&item, &named, end, &declarations));
     let tool_frame = tool.as_ref().map_or(end, |(_, frame)| *frame);
     let tool = tool.map(|(factors, _)| factors);
-    let read: Vec<Option<Loop>> = raw_loops.iter().map(|raw| raw.read(&declarations, document)).collect();
+    let read: Vec<Option<Loop>> =
+        raw_loops.iter().map(|raw| raw.read(&declarations, root.document)).collect();
     complete &= read.iter().all(Option::is_some);
     let loops: Vec<Loop> = read.into_iter().flatten().collect();
     let tree = Tree { frames: &frames, loops: &loops, tool_frame };
-    let is_known = complete && document.found.len() == before;
+    let is_known = complete && root.document.mistakes() == before;
     if is_known {
-        check_freedoms(tree, &declarations, document);
+        check_freedoms(tree, &declarations, root.document);
     }
     let chain = Chain { tree, complete, tool: tool.as_deref(), scope: &declarations.scope };
-    let mut sources = read_sources(root, chain, document);
+    let mut sources = read_sources(root, chain);
     if is_known {
-        check_sources_in_loops(tree, tool.as_deref().unwrap_or_default(), &sources, &declarations, document);
+        check_sources_in_loops(
+            tree,
+            tool.as_deref().unwrap_or_default(),
+            &sources,
+            &declarations,
+            root.document,
+        );
     }
-    let sum_limits = read_sum_limits(root, &declarations, document);
-    let loads = read_loads(root, tree, &declarations.scope, document);
+    let sum_limits = read_sum_limits(root, &declarations);
+    let loads = read_loads(root, tree, &declarations.scope);
     let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
     let gravity = match &gravity_item {
-        Some(item) => Some(read_gravity(item, &declarations.scope, document)?),
+        Some(item) => Some(read_gravity(item, &declarations.scope)?),
         None => None,
     };
-    check_loaded(root, tree, &sources, &loads, &declarations.variables, gravity.is_some(), document);
-    check_signs(&sources, &loads, &declarations, document);
-    let fitted = read_fitted(root, &declarations, document);
-    let covariance = read_covariance(root, &sources, &declarations.scope, document);
-    let undetermined = read_undetermined(root, &frames, &sources, &declarations.scope, document);
+    check_loaded(root, tree, &sources, &loads, &declarations.variables, gravity.is_some());
+    check_signs(&sources, &loads, &declarations, root.document);
+    let fitted = read_fitted(root, &declarations);
+    let covariance = read_covariance(root, &sources, &declarations.scope);
+    let undetermined = read_undetermined(root, &frames, &sources, &declarations.scope);
     let parts = parts_of_balls(&mut sources);
     sources.extend(parts);
-    sources.extend(input_uncertainties(&declarations, &sources, document));
+    sources.extend(input_uncertainties(&declarations, &sources, root.document));
     raw_frames?;
     complete.then_some(())?;
     let Declarations { scope, parameters, inputs, variables, passive } = declarations;
     let Head { name, title, description, reference, length, orientation } = head;
-    let file =
-        Path::new(&document.path).file_name().map_or_else(String::new, |f| f.to_string_lossy().into_owned());
-    let mut hasher = Sha256::new_with_prefix(document.text.as_bytes());
-    document.beside.iter().for_each(|(_, bytes)| hasher.update(bytes));
+    let file = Path::new(&root.document.path)
+        .file_name()
+        .map_or_else(String::new, |f| f.to_string_lossy().into_owned());
+    let mut hasher = Sha256::new_with_prefix(root.document.text.as_bytes());
+    root.document.beside.borrow().iter().for_each(|(_, bytes)| hasher.update(bytes));
     let hash = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    let beside = document.beside.iter().map(|(path, _)| path.clone()).collect();
+    let beside = root.document.beside.borrow().iter().map(|(path, _)| path.clone()).collect();
     Some(Spec {
         name,
         title,
@@ -197,21 +200,21 @@ struct Head {
     orientation: Orientation,
 }
 
-fn read_head(item: &Item<'_>, document: &mut Document) -> Option<Head> {
-    let section = document.table(item, "[manipulator]", &[&keys::MANIPULATOR])?;
-    let name = section.required("name", document).and_then(|item| {
-        let name = document.string(&item)?;
-        check_manipulator_name(&name, item.span(), document);
+fn read_head(item: &Item<'_>) -> Option<Head> {
+    let section = item.table("[manipulator]", &[&keys::MANIPULATOR])?;
+    let name = section.required("name").and_then(|item| {
+        let name = item.string()?;
+        check_manipulator_name(&name, item.span(), item.document);
         Some(name)
     });
-    let length = section.required("length", document).and_then(|item| document.choice(&item, &LENGTHS));
+    let length = section.required("length").and_then(|item| item.choice(&LENGTHS));
     let orientation = match section.get("orientation") {
         None => Some(Orientation::RotationVector),
-        Some(item) => document.choice(&item, &ORIENTATIONS),
+        Some(item) => item.choice(&ORIENTATIONS),
     };
-    let title = section.optional_text("title", document);
-    let description = section.optional_text("description", document);
-    let reference = section.optional_text("reference", document);
+    let title = section.optional_text("title");
+    let description = section.optional_text("description");
+    let reference = section.optional_text("reference");
     let name = name.unwrap_or_default();
     let title = if title.is_empty() { name.clone() } else { title };
     Some(Head {
@@ -232,18 +235,13 @@ struct RawFrame<'d> {
     variable_span: Option<Span>,
 }
 
-fn read_frames<'d>(
-    root: &Section<'d>,
-    declarations: &mut Declarations,
-    document: &mut Document,
-) -> Option<Vec<RawFrame<'d>>> {
-    let item = root.required_list("frame", document)?;
-    let items = document.array_of_tables(&item, "frame")?;
+fn read_frames<'d>(root: &Section<'d>, declarations: &mut Declarations) -> Option<Vec<RawFrame<'d>>> {
+    let item = root.required_list("frame")?;
+    let items = item.array_of_tables("frame")?;
     if items.is_empty() {
-        return document.refuse(item.span(), "a manipulator needs at least one frame", "add a [[frame]]");
+        return item.refuse("a manipulator needs at least one frame", "add a [[frame]]");
     }
-    document.at_most(
-        &item,
+    item.at_most(
         items.len(),
         MOST_FRAMES,
         "frames",
@@ -251,19 +249,16 @@ fn read_frames<'d>(
     )?;
     let mut frames: Vec<RawFrame<'d>> = Vec::new();
     for (index, item) in items.iter().enumerate() {
-        let Some(mut section) = document.section(item) else {
-            continue;
-        };
-        section.name = format!("frame {}", index + 1);
+        let Some(mut section) = item.named(format!("frame {}", index + 1)) else { continue };
         let first = |name: &str| {
             let known = frames.iter().find(|other| other.name == name);
             known.map(|other| other.section.span.clone())
         };
         let help = "rename one; sources refer to frames by name";
-        let name = read_title(&mut section, "frame", first, help, document).unwrap_or_default();
-        section.check_keys(&[&keys::FRAME, &keys::DESCRIBED, &keys::TRANSFORM], document);
+        let name = read_title(&mut section, "frame", first, help).unwrap_or_default();
+        section.check_keys(&[&keys::FRAME, &keys::DESCRIBED, &keys::TRANSFORM]);
         let variable = section.get("variable");
-        let own = variable.as_ref().and_then(|item| declarations.read_variable(index, item, document));
+        let own = variable.as_ref().and_then(|item| declarations.read_variable(index, item));
         let own = own.and_then(|own| Some((own, declarations.variable(own)?.kind)));
         let variable_span = variable.map(|item| item.span());
         frames.push(RawFrame { section, name, own, variable_span });
@@ -274,9 +269,9 @@ fn read_frames<'d>(
 fn read_frame_factors(
     frame: &RawFrame<'_>,
     declarations: &Declarations,
-    document: &mut Document,
+    document: &Document,
 ) -> Option<Vec<Factor>> {
-    let factors = read_factors(&frame.section, frame.own, &declarations.scope, document)?;
+    let factors = read_factors(&frame.section, frame.own, &declarations.scope)?;
     check_matrices(&factors, declarations, document)?;
     if let (Some((own, _)), Some(span)) = (frame.own, &frame.variable_span)
         && let Some(Variable { name, .. }) = declarations.variable(own)
@@ -303,19 +298,18 @@ fn read_tool(
     frames: &[Named<'_>],
     default: usize,
     declarations: &Declarations,
-    document: &mut Document,
 ) -> Option<(Vec<Factor>, usize)> {
-    let section = document.table(item, "[tool]", &[&keys::TOOL_FRAME, &keys::DESCRIBED, &keys::TRANSFORM])?;
+    let section = item.table("[tool]", &[&keys::TOOL_FRAME, &keys::DESCRIBED, &keys::TRANSFORM])?;
     let frame = match section.get("frame") {
-        Some(item) => read_name(document, &item, frames.iter().map(|(name, _)| *name), "frame"),
+        Some(item) => read_name(&item, frames.iter().map(|(name, _)| *name), "frame"),
         None => Some(default),
     };
-    let factors = read_factors(&section, None, &declarations.scope, document)?;
-    check_matrices(&factors, declarations, document)?;
+    let factors = read_factors(&section, None, &declarations.scope)?;
+    check_matrices(&factors, declarations, item.document)?;
     Some((factors, frame?))
 }
 
-fn check_matrices(factors: &[Factor], declarations: &Declarations, document: &mut Document) -> Option<()> {
+fn check_matrices(factors: &[Factor], declarations: &Declarations, document: &Document) -> Option<()> {
     for factor in factors {
         if let Factor::Matrix(matrix) = factor
             && let Some(mistake) = check_rigid(matrix, declarations)

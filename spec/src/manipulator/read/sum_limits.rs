@@ -6,66 +6,57 @@ use super::declarations::Declarations;
 use super::keys;
 use crate::degrees::check_angle_item;
 use crate::diagnostic::Diagnostic;
-use crate::document::{Document, Section};
+use crate::document::Section;
 use crate::expr::{Allowed, Dimension, Entry, Expression, Symbol};
 
 /// Maximum number of limits.
 const MOST: usize = 100;
 
 /// Reads the `[[limit]]` tables.
-pub(super) fn read_sum_limits(
-    root: &Section<'_>,
-    declarations: &Declarations,
-    document: &mut Document,
-) -> Vec<SumLimit> {
+pub(super) fn read_sum_limits(root: &Section<'_>, declarations: &Declarations) -> Vec<SumLimit> {
     let items = root.get("limit").and_then(|item| {
-        let items = document.array_of_tables(&item, "limit")?;
+        let items = item.array_of_tables("limit")?;
         let help = "keep those that configurations can exceed within the limits of each joint";
-        document.at_most(&item, items.len(), MOST, "limits", help).map(|()| items)
+        item.at_most(items.len(), MOST, "limits", help).map(|()| items)
     });
     let mut limits: Vec<SumLimit> = Vec::new();
     for (index, item) in items.unwrap_or_default().iter().enumerate() {
-        let Some(mut section) = document.section(item) else { continue };
-        section.name = format!("limit {}", index + 1);
-        section.check_keys(&[&keys::LIMIT], document);
-        limits.extend(read_sum_limit(&section, declarations, document));
+        let Some(section) = item.named(format!("limit {}", index + 1)) else { continue };
+        section.check_keys(&[&keys::LIMIT]);
+        limits.extend(read_sum_limit(&section, declarations));
     }
     limits
 }
 
-fn read_sum_limit(
-    section: &Section<'_>,
-    declarations: &Declarations,
-    document: &mut Document,
-) -> Option<SumLimit> {
-    let item = section.required("sum", document)?;
-    let text = document.string(&item)?;
+fn read_sum_limit(section: &Section<'_>, declarations: &Declarations) -> Option<SumLimit> {
+    let item = section.required("sum")?;
+    let text = item.string()?;
     let entry = Entry { dimension: None, what: "the sum", names: Allowed::Geometry };
-    let sum = document.expression(&item, &declarations.scope, entry)?;
+    let sum = item.expression(&declarations.scope, entry)?;
     let dimension = sum.whole().dimension.unwrap_or(Dimension::NONE);
     let Some(terms) = weights(&sum, declarations) else {
         let mistake = Diagnostic::new(item.span(), "a limit needs a sum of joint variables")
             .label("not driven joints, each times a constant, and nothing else");
-        return document.fail(mistake.help("write the sum as `a2 + a3` or `2*x1 - x2`"));
+        return section.document.fail(mistake.help("write the sum as `a2 + a3` or `2*x1 - x2`"));
     };
     let kind = if dimension == Dimension::NONE { VariableKind::Revolute } else { VariableKind::Prismatic };
     let ends = section.items().filter(|item| item.key != "sum");
     let ends = ends.flat_map(|item| if item.is_list() { item.list() } else { vec![item] });
     let of_angles = ends.collect::<Vec<_>>().into_iter().filter(|_| kind == VariableKind::Revolute);
-    let doubted = of_angles.filter(|end| check_angle_item(end, &format!("a limit of `{text}`"), document));
+    let doubted = of_angles.filter(|end| check_angle_item(end, &format!("a limit of `{text}`")));
     if doubted.count() > 0 {
         return None;
     }
     let [lower, upper] = match (section.get("limits"), section.get("equals")) {
-        (Some(limits), None) => declarations.interval(&limits, dimension, document)?,
+        (Some(limits), None) => declarations.interval(&limits, dimension)?,
         (None, Some(value)) => {
             let entry = Entry { dimension: Some(dimension), what: "the sum", names: Allowed::Nothing };
-            [document.constant(&value, &declarations.scope, entry)?.0; 2]
+            [value.constant(&declarations.scope, entry)?.0; 2]
         }
         _ => {
             let message = format!("{} needs either `limits` or `equals`", section.name);
             let help = "write `limits = [SMALLEST, LARGEST]`, or `equals = 0` for joints that move together";
-            return document.refuse(section.span.clone(), message, help);
+            return section.refuse(message, help);
         }
     };
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -76,7 +67,7 @@ fn read_sum_limit(
         let message = format!("home is outside the limits of `{text}`");
         let label = format!("the sum is {} at home", limit.value(&home));
         let help = "give the variables a `home` that the limit permits; it is 0 if not given";
-        return document.fail(Diagnostic::new(item.span(), message).label(label).help(help));
+        return section.document.fail(Diagnostic::new(item.span(), message).label(label).help(help));
     }
     Some(limit)
 }

@@ -7,7 +7,7 @@ use super::declarations::Declarations;
 use super::keys;
 use super::points::{Columns, Points};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::document::{Document, Item, Section};
+use crate::document::{Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Extrapolation, Scope, Table, Unit, parse_unit};
 use crate::manipulator::names::check_identifier;
 
@@ -16,86 +16,85 @@ const MOST: usize = 1000;
 
 impl Declarations {
     /// Reads `[tables]`.
-    pub(super) fn read_tables(&mut self, root: &Section<'_>, document: &mut Document) -> Option<()> {
+    pub(super) fn read_tables(&mut self, root: &Section<'_>) -> Option<()> {
         let Some(item) = root.get("tables") else { return Some(()) };
-        let section = document.section(&item)?;
-        let before = document.found.len();
+        let section = item.section()?;
+        let before = root.document.mistakes();
         let help = "remove tables that no expression uses";
-        document.at_most(&item, section.items().count(), MOST, "tables", help)?;
+        item.at_most(section.items().count(), MOST, "tables", help)?;
         for item in section.items() {
-            check_identifier(&item.key, item.key_span.clone(), document);
+            check_identifier(&item.key, item.key_span.clone(), root.document);
             if self.scope.tables.iter().any(|table| table.name.eq_ignore_ascii_case(&item.key)) {
                 let message = format!("`{}` differs from the name of another table only in case", item.key);
-                document.mistake(Diagnostic::new(item.key_span.clone(), message).help("rename one of them"));
-            } else if let Some(table) = self.read_table(&item, document) {
+                root.document
+                    .mistake(Diagnostic::new(item.key_span.clone(), message).help("rename one of them"));
+            } else if let Some(table) = self.read_table(&item) {
                 self.scope.tables.push(Arc::new(table));
             }
         }
-        (document.found.len() == before).then_some(())
+        (root.document.mistakes() == before).then_some(())
     }
 
-    fn read_table(&mut self, item: &Item<'_>, document: &mut Document) -> Option<Table> {
-        let section = document.table(item, format!("[tables.{}]", item.key), &[&keys::LOOKUP])?;
-        let description = section.optional_text("description", document);
-        section.optional_text("reference", document);
-        let interpolation = section
-            .required("interpolation", document)
-            .and_then(|item| document.choice(&item, &INTERPOLATIONS));
+    fn read_table(&mut self, item: &Item<'_>) -> Option<Table> {
+        let section = item.table(format!("[tables.{}]", item.key), &[&keys::LOOKUP])?;
+        let description = section.optional_text("description");
+        section.optional_text("reference");
+        let interpolation = section.required("interpolation").and_then(|item| item.choice(&INTERPOLATIONS));
         let outside = match section.get("outside") {
             None => Some(Extrapolation::Nothing),
-            Some(item) => document.choice(&item, &OUTSIDE),
+            Some(item) => item.choice(&OUTSIDE),
         };
         let file = section.get("file");
         let columns = match &file {
-            Some(item) => Some(Columns::read(item, document)?),
+            Some(item) => Some(Columns::read(item)?),
             None => None,
         };
         let axes = ["x", "y"].map(|key| {
-            let item = section.required(key, document)?;
-            self.read_axis(&item, columns.as_ref(), document)
+            let item = section.required(key)?;
+            self.read_axis(&item, columns.as_ref())
         });
         let [Some(x), Some(y)] = axes else { return None };
         let dimensions = [x.dimension, y.dimension];
         let points = Points { x: x.values, y: y.values, places: x.places, columns: columns.as_ref() };
-        let points = points.check(item, document)?;
+        let points = points.check(item)?;
         let table = Table::new(item.key.clone(), description, dimensions, points, interpolation?, outside?);
         if !table.is_finite() {
             let message = format!("the numbers of `{}` are too large to interpolate", item.key);
-            return document.refuse(item.key_span.clone(), message, "check the units");
+            return item.refuse_key(message, "check the units");
         }
         Some(table)
     }
 
     /// Reads the numbers of an axis: a list, a list with a unit, or a column of the file with a
     /// unit.
-    fn read_axis(&self, item: &Item<'_>, columns: Option<&Columns>, document: &mut Document) -> Option<Axis> {
+    fn read_axis(&self, item: &Item<'_>, columns: Option<&Columns>) -> Option<Axis> {
         if !item.is_table() {
             if let Some(columns) = columns {
                 let message = format!("`{}` must name its column of {}", item.key, columns.file);
                 let help = format!("write `{} = {{ column = \"…\", unit = \"mm\" }}`", item.key);
-                return document.refuse(item.span(), message, help);
+                return item.refuse(message, help);
             }
-            return self.read_list(item, document);
+            return self.read_list(item);
         }
-        let section = document.table(item, format!("`{}`", item.key), &[&keys::AXIS])?;
-        let unit = section.get("unit").map_or(Some(Unit::NONE), |item| unit(&item, &self.scope, document))?;
+        let section = item.table(format!("`{}`", item.key), &[&keys::AXIS])?;
+        let unit = section.get("unit").map_or(Some(Unit::NONE), |item| unit(&item, &self.scope))?;
         let (numbers, places) = match columns {
             Some(columns) => {
-                let column = section.required("column", document)?;
-                (columns.numbers(&column, document)?, Vec::new())
+                let column = section.required("column")?;
+                (columns.numbers(&column)?, Vec::new())
             }
             None => {
                 if let Some(column) = section.get("column") {
                     let message = "`column` names a column of a file, and there is no `file`";
                     let help = "add `file = \"NAME.csv\"` to the table, or give `values = […]`";
-                    return document.refuse(column.span(), message, help);
+                    return column.refuse(message, help);
                 }
-                let values = section.required("values", document)?;
-                let list = self.read_list(&values, document)?;
+                let values = section.required("values")?;
+                let list = self.read_list(&values)?;
                 if list.dimension != Dimension::NONE {
                     let message = format!("the numbers of `{}` already have units", item.key);
                     let help = "remove `unit`, or the units of the numbers";
-                    return document.refuse(values.span(), message, help);
+                    return values.refuse(message, help);
                 }
                 (list.values, list.places)
             }
@@ -105,20 +104,20 @@ impl Declarations {
     }
 
     /// Reads a list of numbers of the same dimension.
-    fn read_list(&self, item: &Item<'_>, document: &mut Document) -> Option<Axis> {
+    fn read_list(&self, item: &Item<'_>) -> Option<Axis> {
         let what = format!("a number of `{}`", item.key);
         let entry = Entry { dimension: None, what: &what, names: Allowed::Nothing };
         let mut dimension: Option<Dimension> = None;
         let mut axis = Axis { values: Vec::new(), dimension: Dimension::NONE, places: Vec::new() };
-        for item in document.array(item, "numbers in brackets")? {
-            let (value, found) = document.constant(&item, &self.scope, entry)?;
+        for item in item.array("numbers in brackets")? {
+            let (value, found) = item.constant(&self.scope, entry)?;
             // Zero needs no unit.
             let is_bare_zero = value == 0.0 && found == Dimension::NONE;
             if !is_bare_zero && found != *dimension.get_or_insert(found) {
                 let expected = dimension.unwrap_or(Dimension::NONE);
                 let message = format!("the numbers of `{}` must have the same dimension", item.key);
                 let mistake = Diagnostic::new(item.span(), message);
-                return document.fail(
+                return item.document.fail(
                     mistake
                         .label(format!("this is {found}, not {expected}"))
                         .help("give every number its unit, or write `{ values = […], unit = \"mm\" }`"),
@@ -140,7 +139,7 @@ struct Axis {
     places: Vec<Span>,
 }
 
-fn unit(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Unit> {
-    let (text, place) = document.text(item)?;
-    parse_unit(text, &place, scope, &mut document.found)
+fn unit(item: &Item<'_>, scope: &Scope) -> Option<Unit> {
+    let (text, place) = item.located_text()?;
+    parse_unit(text, &place, scope, &mut item.document.found.borrow_mut())
 }
