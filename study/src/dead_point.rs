@@ -48,7 +48,7 @@ impl DeadPoint {
                     continue;
                 };
                 // Limits of passive joints may come first.
-                if range > 0.0 && after(share).is_ok() {
+                if after(share).is_ok() {
                     let distance = share * range;
                     let found = Self { joint: name.clone(), value: home[i] + sign * distance, distance };
                     nearest = Some((distance / unit, found));

@@ -27,7 +27,7 @@ pub struct LoopCondition {
     pub largest: f64,
     /// Its configuration: differences from home.
     pub at: String,
-    /// Smallest singular value of the configurations.
+    /// Smallest singular value of the configurations, without a unit.
     pub smallest_singular: f64,
     /// Its configuration: differences from home.
     pub smallest_at: String,

@@ -63,83 +63,73 @@ struct Closed {
 /// Searches the modes by Newton's method from random passive variables; `home` are those of the
 /// spec's mode.
 pub(super) fn search(spec: &Spec, closing: &mut Closing<'_>, home: &[f64]) -> Vec<LoopModes> {
-    let LoopEquations { blocks, column_units: units, .. } = closing.equations.clone();
-    let (nodes, moved) = transforms(spec, &mut closing.equations);
-    let at_home = closing.evaluate(&nodes, home);
-    let of_spec =
-        || Closed { passive: home.to_vec(), place: place(spec, &at_home), starts: 0, is_mode: true };
-    let mut found: Vec<Vec<Closed>> = blocks.iter().map(|_| vec![of_spec()]).collect();
+    let graph = &mut closing.equations.graph;
+    let poses = spec.frames.iter().map(|frame| transform(graph, &frame.factors));
+    let poses: Vec<Node> =
+        poses.flat_map(|pose| [pose.axes.concat(), pose.position.to_vec()].concat()).collect();
+    let LoopEquations { blocks, column_units: units, .. } = &closing.equations;
+    let ranges: Vec<_> =
+        spec.passive.iter().zip(units).map(|(variable, unit)| range(variable, *unit)).collect();
     let starts = STARTS * blocks.iter().map(|[_, columns]| columns.len()).max().unwrap_or(0);
+    let place = |passive: &[f64]| place(spec, &closing.evaluate(&poses, passive));
+    let of_spec = || vec![Closed { passive: home.to_vec(), place: place(home), starts: 0, is_mode: true }];
+    let mut found: Vec<Vec<Closed>> = blocks.iter().map(|_| of_spec()).collect();
     for start in 0..starts {
         let mut random = stream(1, start);
-        let begin = spec.passive.iter().zip(&units).map(|(variable, unit)| {
-            let [middle, half] = range(variable, *unit);
-            middle + half * draw(Distribution::Uniform, &mut random)
-        });
+        let begin =
+            ranges.iter().map(|[middle, half]| middle + half * draw(Distribution::Uniform, &mut random));
         let passive = newton(closing, begin.collect());
-        let (residual, transforms) = (closing.scaled(&passive), closing.evaluate(&nodes, &passive));
-        for (([rows, columns], moved), found) in blocks.iter().zip(&moved).zip(&mut found) {
-            if !rows.iter().all(|row| residual[*row].abs() <= CLOSED) {
-                continue;
-            }
-            let mut own = at_home.clone();
-            moved.iter().for_each(|i| own[12 * i..][..12].copy_from_slice(&transforms[12 * i..][..12]));
-            let place = place(spec, &own);
-            let is_same = |closed: &&mut Closed| {
-                closed.place.iter().zip(&place).all(|(a, b)| (a - b).abs() <= SAME * a.abs().max(1.0))
-            };
-            if let Some(closed) = found.iter_mut().find(is_same) {
-                closed.starts += 1;
-                continue;
-            }
+        let residual = closing.scaled(&passive);
+        let closed = |[rows, _]: &[Vec<usize>; 2]| rows.iter().all(|row| residual[*row].abs() <= CLOSED);
+        for ([_, columns], found) in blocks.iter().zip(&mut found).filter(|(block, _)| closed(block)) {
             let mut here = home.to_vec();
-            columns.iter().for_each(|i| here[*i] = turned(&spec.passive[*i], passive[*i]));
-            let is_inside = spec.passive.iter().zip(&here).all(|(variable, value)| {
-                let [lower, upper] = variable.limits;
-                (lower..=upper).contains(value)
-            });
-            let is_regular =
-                closing.singular_values(&here).is_some_and(|[largest, least]| largest < SINGULAR * least);
-            let is_mode = is_inside && is_regular && closing.closes(&here);
-            found.push(Closed { passive: here, place, starts: 1, is_mode });
+            for i in columns {
+                let turns = match spec.passive[*i].kind {
+                    VariableKind::Revolute => ((passive[*i] - ranges[*i][0]) / TAU).round(),
+                    VariableKind::Prismatic => 0.0,
+                };
+                here[*i] = passive[*i] - TAU * turns;
+            }
+            let known =
+                found.iter().position(|closed| near(&closed.passive, &here)).ok_or_else(|| place(&here));
+            match known
+                .or_else(|place| found.iter().position(|closed| near(&closed.place, &place)).ok_or(place))
+            {
+                Ok(known) => found[known].starts += 1,
+                Err(place) => {
+                    let is_inside =
+                        spec.passive.iter().zip(&here).all(|(variable, value)| {
+                            (variable.limits[0]..=variable.limits[1]).contains(value)
+                        });
+                    let values = closing.singular_values(&here);
+                    let is_regular = values.is_some_and(|[largest, least]| largest < SINGULAR * least);
+                    let is_mode = is_inside && is_regular && closing.closes(&here);
+                    found.push(Closed { passive: here, place, starts: 1, is_mode });
+                }
+            }
         }
     }
-    let owners: Vec<&String> =
-        spec.loops.iter().flat_map(|closed| vec![&closed.name; closed.closure.equations()]).collect();
     let modes = |([rows, columns], mut found): (&[Vec<usize>; 2], Vec<Closed>)| {
-        let mut loops: Vec<String> = rows.iter().map(|row| owners[*row].clone()).collect();
-        loops.dedup();
         found.retain(|closed| closed.is_mode);
         let rounded = |i: &usize, closed: &Closed| (closed.passive[*i] / units[*i] / SAME).round() as i64;
         found[1..].sort_by_key(|closed| columns.iter().map(|i| rounded(i, closed)).collect::<Vec<_>>());
-        let found = found.into_iter().enumerate().map(|(index, closed)| Mode {
-            home: Named(
-                columns.iter().map(|i| (spec.passive[*i].name.clone(), closed.passive[*i])).collect(),
-            ),
+        let value = |i: &usize, closed: &Closed| (spec.passive[*i].name.clone(), closed.passive[*i]);
+        let found = found.iter().enumerate().map(|(index, closed)| Mode {
+            home: Named(columns.iter().map(|i| value(i, closed)).collect()),
             starts: closed.starts,
             is_chosen: index == 0,
         });
+        let owners = spec.loops.iter().flat_map(|closed| vec![&closed.name; closed.closure.equations()]);
+        let own = owners.enumerate().filter(|(row, _)| rows.contains(row));
+        let mut loops: Vec<String> = own.map(|(_, name)| name.clone()).collect();
+        loops.dedup();
         LoopModes { loops, starts, found: found.collect() }
     };
     blocks.iter().zip(found).map(modes).collect()
 }
 
-/// Returns the twelve entries of the transform of each frame, and the frames whose transforms the
-/// passive variables of each block change.
-fn transforms(spec: &Spec, equations: &mut LoopEquations) -> (Vec<Node>, Vec<Vec<usize>>) {
-    let (mut nodes, mut moved) = (Vec::new(), vec![Vec::new(); equations.blocks.len()]);
-    for (i, frame) in spec.frames.iter().enumerate() {
-        let pose = transform(&mut equations.graph, &frame.factors);
-        let entries = [&pose.axes[..], &[pose.position]].concat().concat();
-        let symbols = equations.graph.symbols(&entries);
-        for (moved, [_, columns]) in moved.iter_mut().zip(&equations.blocks) {
-            if columns.iter().any(|i| symbols.contains(&Symbol::Local(*i))) {
-                moved.push(i);
-            }
-        }
-        nodes.extend(entries);
-    }
-    (nodes, moved)
+fn near(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * a.abs().max(1.0))
 }
 
 /// Returns the origins of all frames, and the axes of those that loops or the tool hold: frames
@@ -176,26 +166,12 @@ fn newton(closing: &Closing<'_>, mut passive: Vec<f64>) -> Vec<f64> {
     passive
 }
 
-/// Returns the middle of the values of a passive variable at the starts, and their largest
-/// distance from it: limits, a full turn, or a length of the loops on both sides of home.
+/// Returns the middle of the values of a passive variable at the starts, and their largest distance
+/// from it: those of the limits, or home and half a turn, or a length of the loops.
 fn range(Variable { kind, limits: [lower, upper], home, .. }: &Variable, unit: f64) -> [f64; 2] {
-    let is_limited = lower.is_finite() && upper.is_finite();
-    let (middle, half) = (0.5 * (lower + upper), 0.5 * (upper - lower));
-    match (kind, is_limited) {
-        (VariableKind::Revolute, true) => [middle, half.min(PI)],
-        (VariableKind::Revolute, false) => [0.0, PI],
-        (VariableKind::Prismatic, true) => [middle, half],
-        (VariableKind::Prismatic, false) => [*home, unit],
-    }
-}
-
-/// Returns an angle within a half turn of the middle of its limits.
-fn turned(variable: &Variable, value: f64) -> f64 {
-    match variable.kind {
-        VariableKind::Revolute => {
-            let [middle, _] = range(variable, 1.0);
-            value - TAU * ((value - middle) / TAU).round()
-        }
-        VariableKind::Prismatic => value,
+    match kind {
+        _ if (upper - lower).is_finite() => [0.5 * (lower + upper), 0.5 * (upper - lower)],
+        VariableKind::Revolute => [*home, PI],
+        VariableKind::Prismatic => [*home, unit],
     }
 }

@@ -79,7 +79,7 @@ pub struct Home {
     /// Condition number of φ_p in the 2-norm, with lengths relative to those of the loops; null
     /// if it is not finite.
     pub condition: Option<f64>,
-    /// Smallest singular value of φ_p; null if it is not finite.
+    /// Smallest singular value of φ_p, without a unit; null if it is not finite.
     pub smallest_singular: Option<f64>,
     /// Nearest dead point that one joint reaches alone from home; absent if there is none within
     /// the limits of the joints, or unless closed.

@@ -58,17 +58,12 @@ impl LoopEquations {
 fn independent(columns: &[Vec<Node>], zero: Node) -> Vec<[Vec<usize>; 2]> {
     let mut blocks: Vec<[Vec<usize>; 2]> = Vec::new();
     for (index, column) in columns.iter().enumerate() {
-        let rows: Vec<usize> = (0..column.len()).filter(|row| column[*row] != zero).collect();
-        let (same, others): (Vec<_>, Vec<_>) =
-            blocks.into_iter().partition(|[known, _]| rows.iter().any(|row| known.contains(row)));
-        let mut block = same
-            .into_iter()
-            .chain([[rows, vec![index]]])
-            .fold([vec![], vec![]], |[a, b], [c, d]| [[a, c].concat(), [b, d].concat()]);
-        block.iter_mut().for_each(|indices| {
-            indices.sort_unstable();
-            indices.dedup();
-        });
+        let own = |row: &usize| column[*row] != zero;
+        let (same, others): (Vec<_>, Vec<_>) = blocks.into_iter().partition(|[rows, _]| rows.iter().any(own));
+        let mut block = [(0..column.len()).filter(own).collect(), vec![index]];
+        same.into_iter().flatten().enumerate().for_each(|(i, more)| block[i % 2].extend(more));
+        block.iter_mut().for_each(|indices| indices.sort_unstable());
+        block[0].dedup();
         blocks = others.into_iter().chain([block]).collect();
     }
     blocks.sort_unstable();

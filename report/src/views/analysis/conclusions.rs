@@ -20,11 +20,9 @@ pub(super) fn conclusions(report: &Report) -> Vec<String> {
         report.compensation.as_ref().map(|compensation| residual(report, compensation)),
         norms::certified_norms(report),
         Some(first_order(report)),
-        report.loops.as_ref().map(|loops| format!("Loops: {}.", loop_condition(loops))),
-        report
-            .loops
-            .as_ref()
-            .map(|loops| format!("Dead point: {}.", nearest_dead_point(loops, &report.spec))),
+        report.loops.as_ref().map(|loops| {
+            format!("Loops: {}; {}.", loop_condition(loops), nearest_dead_point(loops, &report.spec))
+        }),
     ];
     sentences.into_iter().flatten().collect()
 }

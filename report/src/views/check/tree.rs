@@ -1,6 +1,5 @@
 //! Freedoms of a machine with closed loops, and how these close at home.
 
-use abbe::VariableKind;
 use abbe_spec::{Spec, Variable};
 use abbe_study::check::{Free, Loop, LoopModes, Mode, State, Tree};
 use abbe_study::number::{self, counted, digits, short};
@@ -11,8 +10,6 @@ use crate::views::shared::dead_point;
 
 /// Number of loops and of variables named in a sentence.
 const NAMED: usize = 6;
-/// Decimals of the values that choose a mode.
-const DECIMALS: usize = 6;
 
 /// Returns the freedoms, the loops and the passive variables.
 pub(super) fn sections(tree: &Tree, spec: &Spec) -> Vec<Section> {
@@ -61,12 +58,10 @@ fn modes(tree: &Tree, spec: &Spec) -> Section {
     let found: &[LoopModes] = tree.home.as_ref().map_or(&[], |home| &home.modes);
     let line = |LoopModes { loops, starts, .. }: &LoopModes, mode: &Mode| {
         let values = mode.home.0.iter().map(|(name, value)| {
-            let variable = spec.passive.iter().find(|variable| variable.name == *name);
-            let (value, unit) = match variable.map(|variable| variable.kind) {
-                Some(VariableKind::Revolute) => (value.to_degrees(), "deg"),
-                _ => (*value, spec.length.symbol()),
-            };
-            format!("{name} = \"{} {unit}\"", number::trimmed(value, DECIMALS))
+            let same = spec.passive.iter().find(|variable| variable.name == *name);
+            let home = same.map(|variable| Variable { home: *value, ..variable.clone() });
+            let home = home.map_or(String::new(), |variable| joint(&variable, spec.length)[2].clone());
+            format!("{name} = \"{home}\"")
         });
         let own = if mode.is_chosen { ", of the spec" } else { "" };
         let of = if found.len() > 1 { format!(" of {}", first(loops, NAMED)) } else { String::new() };

@@ -53,8 +53,9 @@ fn assert_chosen(spec: &Spec, groups: &[LoopModes]) {
         for mode in &group.found {
             let other = chosen(spec, mode);
             let found = passive(&Interpreter::new(other.clone()), &home(spec)).unwrap();
-            for (i, variable) in other.passive.iter().enumerate() {
-                assert!((found[i] - variable.home).abs() < 1e-6, "{} {}", found[i], variable.home);
+            for (name, value) in &mode.home.0 {
+                let i = spec.passive.iter().position(|variable| variable.name == *name).unwrap();
+                assert!((found[i] - value).abs() < 1e-6, "{name}: {} {value}", found[i]);
             }
             for (gap, unit) in
                 equations.residual_at(&home(spec), &found, &parameters).iter().zip(&equations.row_units)
