@@ -6,7 +6,6 @@ use abbe::analysis::sampling::{draw, stream};
 use abbe::{Distribution, Pose, VariableKind};
 use abbe_codegen::chain::{LoopEquations, transform};
 use abbe_codegen::graph::Node;
-use abbe_spec::expr::Symbol;
 use abbe_spec::{Spec, Variable};
 use serde::Serialize;
 
