@@ -758,6 +758,21 @@ class CrossValidation(Fields):
     """Improvement by the richer terms over constants alone, if they were tried."""
 
 
+class DeadPoint(Fields):
+    """Configuration beyond which the loops do not close in the mode of home: passive joints lose their drive there.
+    One commanded joint has moved from home.
+    """
+
+    joint: str
+    """Name of the joint that reaches it."""
+
+    value: float
+    """Value of the joint there, in the length unit or rad."""
+
+    distance: float
+    """Distance of the joint from home, in the length unit or rad."""
+
+
 class Dexterity(Fields):
     """Smallest singular value of the joint Jacobian `J_q`, in metres and radians: the smallest motion of the tool for
     a joint motion of root sum of squares 1. It is 0 at a singularity.
@@ -1273,7 +1288,7 @@ class Free(Fields):
     """Names of the passive variables that move."""
 
     motion: list[float]
-    """Motion of each, relative to the fastest, without a unit: lengths relative to the arm length."""
+    """Motion of each, relative to the fastest, without a unit: lengths relative to those of the loops."""
 
     loops: list[str]
     """Names of the loops whose equations depend on each other."""
@@ -1354,7 +1369,18 @@ class Home(Fields):
     """State of the loops."""
 
     condition: float | None
-    """Condition number of φ_p in the 2-norm, with lengths relative to the arm length; null if it is not finite."""
+    """Condition number of φ_p in the 2-norm, with lengths relative to those of the loops; null if it is not finite."""
+
+    smallest_singular: float | None
+    """Smallest singular value of φ_p; null if it is not finite."""
+
+    dead_point: DeadPoint | None = None
+    """Nearest dead point that one joint reaches alone from home; absent if there is none within the limits of the
+    joints, or unless closed.
+    """
+
+    modes: list[LoopModes] | None = None
+    """Assembly modes of the loops, where these do not depend on each other one by one; empty unless closed."""
 
     free: list[Free] | None = None
     """Directions in which the passive variables can move by themselves; empty unless singular."""
@@ -1972,8 +1998,9 @@ class Loop(Fields):
 
 
 class LoopCondition(Fields):
-    """Condition number of `φ_p`, the derivative of the equations of the loops with respect to the passive variables,
-    with lengths in arm lengths. It is infinite where the machine can move although all commanded joints are held.
+    """Condition number and singular values of `φ_p`, the derivative of the equations of the loops with respect to the
+    passive variables, with lengths relative to those of the loops. It is singular where the machine can move
+    although all commanded joints are held.
     """
 
     configurations: int
@@ -1984,6 +2011,32 @@ class LoopCondition(Fields):
 
     at: str
     """Its configuration: differences from home."""
+
+    smallest_singular: float
+    """Smallest singular value of the configurations."""
+
+    smallest_at: str
+    """Its configuration: differences from home."""
+
+    dead_point: DeadPoint | None = None
+    """Nearest dead point that one joint reaches alone from home; absent if there is none within the limits of the
+    joints.
+    """
+
+
+class LoopModes(Fields):
+    """Loops that do not depend on the passive variables of others, and their assembly modes."""
+
+    loops: list[str]
+    """Names of the loops."""
+
+    starts: int
+    """Number of random starts of the search."""
+
+    found: list[Mode]
+    """Modes that it found within the limits of the passive variables: that of the spec, then the others in the order
+    of their values.
+    """
 
 
 class LowerBound(Fields):
@@ -2147,6 +2200,19 @@ class MeasureReport(Report):
 
     record: Named[str] | None
     """Stated date, persons and instruments, and the version of abbe; absent if nothing is stated."""
+
+
+class Mode(Fields):
+    """Assembly mode at the home of the commanded joints."""
+
+    home: Named[float]
+    """Passive variables, in the length unit or rad."""
+
+    starts: int
+    """Number of starts that led to it."""
+
+    is_chosen: bool
+    """`true` for the mode of the spec."""
 
 
 class MonitorFinding(Fields):

@@ -1,29 +1,30 @@
 //! Numerical closing of the loops, also from values that are far away, and where the equations are
 //! singular.
 
-use abbe_codegen::chain::{LoopEquations, transform};
+use abbe::analysis::decompose;
+use abbe_codegen::chain::LoopEquations;
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 use nalgebra::{DMatrix, DVector};
 
-use crate::loop_units::LoopUnits;
-
 /// Maximum number of steps.
 const STEPS: usize = 500;
 
-/// The equations of the loops at a configuration, with lengths relative to the arm length.
+/// Largest equation of loops that close, without a unit.
+pub(crate) const CLOSED: f64 = 1e-10;
+
+/// The equations of the loops at a configuration. Without units, lengths are relative to those of
+/// the loops.
 pub(crate) struct Closing<'a> {
     spec: &'a Spec,
     pub(crate) q: Vec<f64>,
     pub(crate) s: Vec<f64>,
-    equations: LoopEquations,
-    units: LoopUnits,
+    pub(crate) equations: LoopEquations,
 }
 
 impl<'a> Closing<'a> {
     pub(crate) fn new(spec: &'a Spec, q: &[f64], s: &[f64]) -> Self {
-        let units = LoopUnits::new(spec, arm_length(spec));
-        Self { spec, q: q.to_vec(), s: s.to_vec(), equations: LoopEquations::new(spec), units }
+        Self { spec, q: q.to_vec(), s: s.to_vec(), equations: LoopEquations::new(spec) }
     }
 
     /// Returns the passive variables at home in the spec.
@@ -38,7 +39,7 @@ impl<'a> Closing<'a> {
 
     /// Returns the equations without units.
     pub(crate) fn scaled(&self, passive: &[f64]) -> DVector<f64> {
-        let rows = &self.units.rows;
+        let rows = &self.equations.row_units;
         let residual = self.residual(passive).into_iter().zip(rows);
         DVector::from_iterator(rows.len(), residual.map(|(value, unit)| value / unit))
     }
@@ -49,12 +50,32 @@ impl<'a> Closing<'a> {
         if size.is_finite() { size } else { f64::INFINITY }
     }
 
-    /// Returns `φ_p` without units.
-    pub(crate) fn derivatives(&self, passive: &[f64]) -> DMatrix<f64> {
-        self.units.derivatives(&self.evaluate(&self.equations.derivatives.concat(), passive))
+    /// Returns `true` if the loops close there, and no rotation does so upside down.
+    pub(crate) fn closes(&self, passive: &[f64]) -> bool {
+        let upright = self.evaluate(&self.equations.upright, passive);
+        self.size(passive) <= CLOSED && upright.iter().all(|positive| *positive > 0.0)
     }
 
-    fn evaluate(&self, nodes: &[abbe_codegen::graph::Node], passive: &[f64]) -> Vec<f64> {
+    /// Returns `φ_p` without units.
+    pub(crate) fn derivatives(&self, passive: &[f64]) -> DMatrix<f64> {
+        let entries = self.evaluate(&self.equations.derivatives.concat(), passive);
+        let LoopEquations { row_units: rows, column_units: columns, .. } = &self.equations;
+        DMatrix::from_fn(rows.len(), columns.len(), |i, j| entries[j * rows.len() + i] * columns[j] / rows[i])
+    }
+
+    /// Returns the largest and the smallest singular value of `φ_p` without units; `None` if they
+    /// are not finite.
+    pub(crate) fn singular_values(&self, passive: &[f64]) -> Option<[f64; 2]> {
+        let derivatives = self.derivatives(passive);
+        let blocks = self.equations.blocks.iter().map(|[rows, columns]| {
+            let values = decompose::singular_values(derivatives.select_rows(rows).select_columns(columns))?;
+            Some([*values.first()?, *values.last()?])
+        });
+        blocks.reduce(|a, b| a.zip(b).map(|([a, b], [c, d])| [a.max(c), b.min(d)])).flatten()
+    }
+
+    /// Returns the values of nodes of the equations.
+    pub(crate) fn evaluate(&self, nodes: &[abbe_codegen::graph::Node], passive: &[f64]) -> Vec<f64> {
         self.equations.graph.evaluate(nodes, |symbol| match symbol {
             Symbol::Local(i) => passive[i],
             Symbol::Variable(i) => self.q[i],
@@ -78,7 +99,7 @@ impl<'a> Closing<'a> {
             }
             let Some(step) = normal.cholesky().map(|factored| factored.solve(&gradient)) else { break };
             let moved: Vec<f64> =
-                (0..passive.len()).map(|i| passive[i] - step[i] * self.units.columns[i]).collect();
+                (0..passive.len()).map(|i| passive[i] - step[i] * self.equations.column_units[i]).collect();
             let found = self.scaled(&moved);
             // A comparison with NaN is false.
             if found.norm() < residual.norm() {
@@ -92,18 +113,6 @@ impl<'a> Closing<'a> {
         }
         passive
     }
-}
-
-/// Returns the sum of the lengths of the transforms at home, as `abbe::sampling::arm_length`, also
-/// where loops do not close; 1 if it is zero.
-fn arm_length(spec: &Spec) -> f64 {
-    let mut graph = abbe_codegen::graph::Graph::with_tables(&spec.tables);
-    let factors = spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]);
-    let nodes: Vec<_> = factors.flat_map(|factors| transform(&mut graph, factors).position).collect();
-    let numbers = graph.evaluate(&nodes, |symbol| value_at_home(symbol, spec));
-    let lengths = numbers.chunks_exact(3).map(|xyz| xyz.iter().map(|x| x * x).sum::<f64>().sqrt());
-    let length: f64 = lengths.sum();
-    if length > 0.0 && length.is_finite() { length } else { 1.0 }
 }
 
 /// Returns the value of a symbol at home.

@@ -12,9 +12,6 @@ use crate::number;
 /// Number of halvings that find where the path ends.
 const HALVINGS: i32 = 20;
 
-/// Largest equation of loops that close, without a unit.
-const CLOSED: f64 = 1e-10;
-
 /// Returns the diagnostics of a configuration, described by `at`, that could not be evaluated. Of
 /// loops that do not close they say more than the error does.
 pub fn not_evaluated(
@@ -55,25 +52,18 @@ pub fn open_loops(spec: &Spec, q: &[f64], s: &[f64]) -> Option<String> {
     };
     if !closes(0.0, &mut passive) {
         let nearest = closing.nearest(&closing.home());
-        return Some(match is_closed(&closing, &nearest) {
+        return Some(match closing.closes(&nearest) {
             true => "at home the passive joints can move by themselves, or close the loops only far away"
                 .to_owned(),
             false => format!("the loops do not close at home: {}", open_loop(spec, &closing, &nearest)),
         });
     }
-    if !closes(1.0, &mut passive) {
-        let mut share = 0.0;
-        for halving in 1..=HALVINGS {
-            let further = share + 0.5_f64.powi(halving);
-            if closes(further, &mut passive) {
-                share = further;
-            }
-        }
+    if let Some(share) = path_end(|share| closes(share, &mut passive)) {
         closes(share, &mut passive);
         let end = number::variables(&along(&home, q, share), spec);
         (closing.q, closing.s) = (q.to_vec(), s.to_vec());
         let nearest = closing.nearest(&passive);
-        let why = match is_closed(&closing, &nearest) {
+        let why = match closing.closes(&nearest) {
             true => "the loops close in another mode only".to_owned(),
             false => format!("the loops do not close: {}", open_loop(spec, &closing, &nearest)),
         };
@@ -97,8 +87,13 @@ pub fn open_loops(spec: &Spec, q: &[f64], s: &[f64]) -> Option<String> {
     })
 }
 
-fn is_closed(closing: &Closing<'_>, passive: &[f64]) -> bool {
-    closing.size(passive) <= CLOSED
+/// Returns the share of the way from home at which the path ends; `None` if it does not.
+pub(crate) fn path_end(mut closes: impl FnMut(f64) -> bool) -> Option<f64> {
+    if closes(1.0) {
+        return None;
+    }
+    let halvings = (1..=HALVINGS).map(|halving| 0.5_f64.powi(halving));
+    Some(halvings.fold(0.0, |share, part| if closes(share + part) { share + part } else { share }))
 }
 
 /// Names the loop that is farthest open, and says how far.

@@ -6,7 +6,8 @@ use abbe_metrology::identify::ResidualDrift;
 use abbe_metrology::{AcceptanceVerdict, LimitCheck};
 use abbe_spec::Spec;
 use abbe_spec::option::NamedOption;
-use abbe_study::number::{digits, error_unit, length, percent, quantity, short, unbroken};
+use abbe_study::dead_point::DeadPoint;
+use abbe_study::number::{self, digits, error_unit, length, percent, quantity, short, unbroken};
 use abbe_study::{Extrapolation, OtherTool};
 
 use crate::document::{Section, Verdict, first, joined};
@@ -21,6 +22,18 @@ pub(super) const NOTES: usize = 2;
 /// Returns the factor and the unit in which a number is shown: mrad for rad.
 pub(super) fn angle_in_mrad(unit: &'static str) -> (f64, &'static str) {
     if unit == "rad" { (1e3, "mrad") } else { (1.0, unit) }
+}
+
+/// Returns where one joint reaches a dead point alone.
+pub(super) fn dead_point(point: Option<&DeadPoint>, spec: &Spec) -> String {
+    let kind = |name: &str| spec.variables.iter().find(|variable| variable.name == name);
+    point.and_then(|point| Some((kind(&point.joint)?, point))).map_or(
+        "none for a joint that moves alone from home within its limits".to_owned(),
+        |(variable, point)| {
+            let distance = number::of_variable(point.distance, variable.kind, spec.length);
+            format!("{}, {distance} from home", number::variable_is(variable, point.value, spec))
+        },
+    )
 }
 
 /// Formats a p-value.

@@ -1,14 +1,12 @@
 //! Condition of `φ_p`: it says how well the loops determine the passive variables.
 
 use abbe::Manipulator;
-use abbe::analysis::decompose::singular_values;
-use abbe::analysis::sampling::arm_length;
 use abbe::analysis::{Configuration, Workspace};
-use abbe_codegen::chain::LoopEquations;
 use abbe_spec::Spec;
 use serde::Serialize;
 
-use crate::loop_units::LoopUnits;
+use crate::closing::Closing;
+use crate::dead_point::DeadPoint;
 use crate::number;
 
 /// Largest number of configurations at which the condition is evaluated.
@@ -18,9 +16,9 @@ const CHECKED: usize = 2000;
 /// then up to that many times larger at the tool than where the loops are best determined.
 pub const NEARLY_SINGULAR: f64 = 1000.0;
 
-/// Condition number of `φ_p`, the derivative of the equations of the loops with respect to the
-/// passive variables, with lengths in arm lengths. It is infinite where the machine can move
-/// although all commanded joints are held.
+/// Condition number and singular values of `φ_p`, the derivative of the equations of the loops with
+/// respect to the passive variables, with lengths relative to those of the loops. It is singular
+/// where the machine can move although all commanded joints are held.
 #[derive(Clone, Debug, Serialize)]
 pub struct LoopCondition {
     /// Number of configurations that were evaluated, spread evenly over the workspace.
@@ -29,6 +27,14 @@ pub struct LoopCondition {
     pub largest: f64,
     /// Its configuration: differences from home.
     pub at: String,
+    /// Smallest singular value of the configurations, without a unit.
+    pub smallest_singular: f64,
+    /// Its configuration: differences from home.
+    pub smallest_at: String,
+    /// Nearest dead point that one joint reaches alone from home; absent if there is none within
+    /// the limits of the joints.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dead_point: Option<DeadPoint>,
 }
 
 impl LoopCondition {
@@ -38,21 +44,39 @@ impl LoopCondition {
         if spec.loops.is_empty() {
             return None;
         }
-        let equations = LoopEquations::new(spec);
         let home = workspace.home();
-        let units = LoopUnits::new(spec, arm_length(manipulator, &home.s).ok()?);
-        let condition = |at: &Configuration| condition(spec, manipulator, &equations, &units, at);
+        let mut closing = Closing::new(spec, &home.q, &home.s);
+        let mut passive = closing.home();
+        let mut condition = |Configuration { q, s, .. }: &Configuration| {
+            manipulator.passive(q, s, &mut passive).ok()?;
+            (closing.q, closing.s) = (q.clone(), s.clone());
+            let [largest, least] = closing.singular_values(&passive)?;
+            Some([if least > 0.0 { largest / least } else { f64::MAX }, least])
+        };
         let label = |at: &Configuration| number::configuration(at, home, spec);
-        let mut found = Self { configurations: 0, largest: condition(home)?, at: label(home) };
+        let [largest, smallest_singular] = condition(home)?;
+        let mut found = Self {
+            configurations: 0,
+            largest,
+            at: label(home),
+            smallest_singular,
+            smallest_at: label(home),
+            dead_point: None,
+        };
         let step = workspace.len().div_ceil(CHECKED).max(1);
         for index in (0..workspace.len()).step_by(step) {
             let Ok(at) = workspace.configuration(index) else { continue };
-            let Some(here) = condition(&at) else { continue };
+            let Some([largest, smallest]) = condition(&at) else { continue };
             found.configurations += 1;
-            if here > found.largest {
-                (found.largest, found.at) = (here, label(&at));
+            if largest > found.largest {
+                (found.largest, found.at) = (largest, label(&at));
+            }
+            if smallest < found.smallest_singular {
+                (found.smallest_singular, found.smallest_at) = (smallest, label(&at));
             }
         }
+        found.dead_point =
+            DeadPoint::nearest(spec, manipulator, [&home.q, &home.s], &closing.equations.variable_units);
         Some(found)
     }
 
@@ -60,19 +84,4 @@ impl LoopCondition {
     pub fn is_nearly_singular(&self) -> bool {
         self.largest > NEARLY_SINGULAR
     }
-}
-
-/// Returns the condition number at a configuration; `None` where the loops do not close.
-fn condition(
-    spec: &Spec,
-    manipulator: &dyn Manipulator,
-    equations: &LoopEquations,
-    units: &LoopUnits,
-    Configuration { q, s, .. }: &Configuration,
-) -> Option<f64> {
-    let mut p = vec![0.0; spec.passive.len()];
-    manipulator.passive(q, s, &mut p).ok()?;
-    let values = singular_values(units.derivatives(&equations.derivatives_at(q, &p, s)))?;
-    let (largest, least) = (values.first()?, values.last()?);
-    Some(if *least > 0.0 { largest / least } else { f64::MAX })
 }

@@ -1,7 +1,11 @@
 //! Number of generalized errors that measurements can identify.
 
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+
 use abbe::analysis::{
-    Configuration, Measurement, Parts, Workspace, identifiable, identifiable_in_parts, random_joint_samples,
+    Configuration, Measurement, Parts, Workspace, identifiable, identifiable_in_parts, in_order_until,
+    random_joint_samples,
 };
 use abbe::{Error, Manipulator};
 use abbe_interpreter::Interpreter;
@@ -76,8 +80,8 @@ pub(super) fn count(manipulator: &Interpreter, notes: &mut dyn Notes) -> Result<
         ("point", Measurement::Point, true),
     ];
     let mut counted = Vec::with_capacity(measurements.len());
-    for (name, measurement, base) in measurements {
-        notes.go_on()?;
+    let count = |i: usize| {
+        let (name, measurement, base) = measurements[i];
         let found = samples.as_ref().map_err(String::clone).and_then(|samples| {
             let found = match is_chain {
                 true => identifiable_in_parts(manipulator, &parts, samples, measurement, base),
@@ -85,14 +89,20 @@ pub(super) fn count(manipulator: &Interpreter, notes: &mut dyn Notes) -> Result<
             };
             found.map_err(|error| error.to_string())
         });
-        counted.push(Identifiable {
+        Ok::<_, Infallible>(Identifiable {
             measurement: name,
             base,
             rank: found.as_ref().ok().map(|found| found.rank),
             reason: found.err().unwrap_or_default(),
             unknowns: 6 * (description.frames.len() + usize::from(base)),
-        });
-    }
+        })
+    };
+    in_order_until(measurements.len(), count, |one| {
+        counted.push(one);
+        if notes.stop() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })
+    .unwrap_or_else(|never| match never {});
+    notes.go_on()?;
     let configurations = samples.map_or(configurations, |closed| closed.len());
     Ok(Counted { list: counted, configurations, remark })
 }

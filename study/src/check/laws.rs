@@ -31,10 +31,10 @@ pub struct Law {
     pub failure: Option<String>,
 }
 
-/// Returns the number of configurations to check. It decreases for long chains and for many
-/// parameters, whose evaluation takes longer.
+/// Returns the number of configurations to check. It decreases for long chains, for many parameters
+/// and for many passive joints, whose evaluation takes longer.
 pub(super) fn configurations(spec: &Spec) -> usize {
-    let size = spec.frames.len().max(spec.parameters.len() / 5);
+    let size = spec.frames.len().max(spec.parameters.len() / 5) + spec.passive.len();
     (20 * laws::SAMPLES / size.max(20)).max(10)
 }
 

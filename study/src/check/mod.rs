@@ -1,7 +1,7 @@
 //! Checks a spec, and reports what follows from it.
 //!
 //! `facts` holds the content of the spec, `chain` its matrices at home, `tree`
-//! what closed loops leave free, `angles` suspicious angles, `axes` unexpected axes of rotation,
+//! what closed loops leave free, `modes` other ways in which they close, `angles` suspicious angles, `axes` unexpected axes of rotation,
 //! `unused` inputs and loads without effect, `identifiable` the number of identifiable errors, and
 //! `laws` the self-checks of the closed form against the exact chain.
 
@@ -11,6 +11,7 @@ mod chain;
 mod facts;
 mod identifiable;
 mod laws;
+mod modes;
 mod tree;
 mod unused;
 
@@ -31,6 +32,7 @@ pub use facts::{Facts, Frame, FunctionOperations, NominalValue, Source, Variable
 use identifiable::Counted;
 pub use identifiable::Identifiable;
 pub use laws::{Law, laws};
+pub use modes::{LoopModes, Mode};
 pub use tree::{Free, Home, Loop, Passive, State, Tree};
 
 /// Job of `abbe check`: checks a spec.

@@ -1,7 +1,6 @@
 //! Frames that branch, and loops: the freedoms, and how the loops close at home.
 //!
-//! Numbers without a unit have lengths relative to the arm length, the sum of the lengths of all
-//! transforms at home.
+//! Numbers without a unit have lengths relative to those of the loops.
 
 use abbe::Manipulator;
 use abbe::analysis::sampling;
@@ -11,13 +10,12 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::facts::kind;
+use super::modes::{LoopModes, SINGULAR, search};
 use crate::closing::Closing;
+use crate::dead_point::DeadPoint;
 
 /// Largest equation, without a unit, of loops that close.
 const CLOSED: f64 = 1e-9;
-
-/// Condition number from which φ_p is called singular.
-const SINGULAR: f64 = 1e6;
 
 /// Smallest share of a passive variable, or of an equation, in a singular direction that is named.
 const SHARE: f64 = 1e-4;
@@ -78,9 +76,19 @@ pub struct Loop {
 pub struct Home {
     /// State of the loops.
     pub state: State,
-    /// Condition number of φ_p in the 2-norm, with lengths relative to the arm length; null if it
-    /// is not finite.
+    /// Condition number of φ_p in the 2-norm, with lengths relative to those of the loops; null
+    /// if it is not finite.
     pub condition: Option<f64>,
+    /// Smallest singular value of φ_p, without a unit; null if it is not finite.
+    pub smallest_singular: Option<f64>,
+    /// Nearest dead point that one joint reaches alone from home; absent if there is none within
+    /// the limits of the joints, or unless closed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dead_point: Option<DeadPoint>,
+    /// Assembly modes of the loops, where these do not depend on each other one by one; empty
+    /// unless closed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub modes: Vec<LoopModes>,
     /// Directions in which the passive variables can move by themselves; empty unless singular.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub free: Vec<Free>,
@@ -105,7 +113,8 @@ pub enum State {
 pub struct Free {
     /// Names of the passive variables that move.
     pub passive: Vec<String>,
-    /// Motion of each, relative to the fastest, without a unit: lengths relative to the arm length.
+    /// Motion of each, relative to the fastest, without a unit: lengths relative to those of the
+    /// loops.
     pub motion: Vec<f64>,
     /// Names of the loops whose equations depend on each other.
     pub loops: Vec<String>,
@@ -170,7 +179,7 @@ impl Tree {
 fn at_home(spec: &Spec, manipulator: &dyn Manipulator) -> (Vec<f64>, Vec<f64>, Home) {
     let description = manipulator.description();
     let (q, s) = (sampling::home(description), sampling::nominal_parameters(description));
-    let closing = Closing::new(spec, &q, &s);
+    let mut closing = Closing::new(spec, &q, &s);
     let mut passive = vec![0.0; spec.passive.len()];
     let is_found = manipulator.passive(&q, &s, &mut passive).is_ok();
     if !is_found {
@@ -186,7 +195,13 @@ fn at_home(spec: &Spec, manipulator: &dyn Manipulator) -> (Vec<f64>, Vec<f64>, H
     };
     let free = if state == State::Singular { free } else { Vec::new() };
     let gaps = closing.residual(&passive);
-    (passive, gaps, Home { state, condition, free })
+    let smallest_singular = closing.singular_values(&passive).map(|[_, smallest]| smallest);
+    let (mut dead_point, mut modes) = (None, Vec::new());
+    if state == State::Closed {
+        dead_point = DeadPoint::nearest(spec, manipulator, [&q, &s], &closing.equations.variable_units);
+        modes = search(spec, &mut closing, &passive);
+    }
+    (passive, gaps, Home { state, condition, smallest_singular, dead_point, modes, free })
 }
 
 /// Returns the condition number of `φ_p` and its null directions.

@@ -10,7 +10,7 @@ use abbe_study::number::{self as numbers, error_unit, fixed, percent, steady};
 use abbe_study::study_file::{Criterion, JudgedMachine};
 
 use super::agreement::agreement_text;
-use super::conclusions::{exact, loop_condition, singular_sentence};
+use super::conclusions::{exact, loop_condition, nearest_dead_point, singular_sentence};
 use super::verdict::{by_criterion, stated_probability};
 use crate::document::{Section, Table, first, number, words};
 use crate::unit;
@@ -262,6 +262,8 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     }
     let nearly_singular = report.loops.as_ref().filter(|loops| loops.is_nearly_singular());
     facts.extend(nearly_singular.map(|loops| ("Loops", loop_condition(loops))));
+    let named = if nearly_singular.is_some() { "" } else { "Loops" };
+    facts.extend(report.loops.as_ref().map(|loops| (named, nearest_dead_point(loops, &report.spec))));
     if report.singular() > 0 {
         facts.push(("Euler", singular_sentence(report)));
     }

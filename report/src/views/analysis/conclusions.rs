@@ -4,6 +4,8 @@ use abbe::analysis::Measurand;
 
 use super::norms;
 use crate::unit::{self, decimals};
+use crate::views::shared::dead_point;
+use abbe_spec::Spec;
 use abbe_study::analyze::{AfterCompensation, LoopCondition, NEARLY_SINGULAR, RemainingErrors, Report};
 use abbe_study::number::{self, percent, short};
 
@@ -18,14 +20,16 @@ pub(super) fn conclusions(report: &Report) -> Vec<String> {
         report.compensation.as_ref().map(|compensation| residual(report, compensation)),
         norms::certified_norms(report),
         Some(first_order(report)),
-        report.loops.as_ref().map(|loops| format!("Loops: {}.", loop_condition(loops))),
+        report.loops.as_ref().map(|loops| {
+            format!("Loops: {}; {}.", loop_condition(loops), nearest_dead_point(loops, &report.spec))
+        }),
     ];
     sentences.into_iter().flatten().collect()
 }
 
 /// States how well the loops determine the passive variables.
 pub(super) fn loop_condition(loops: &LoopCondition) -> String {
-    let LoopCondition { configurations, largest, at } = loops;
+    let LoopCondition { configurations, largest, at, .. } = loops;
     let largest = number::digits(*largest, 3);
     match loops.is_nearly_singular() {
         true => format!(
@@ -36,6 +40,16 @@ pub(super) fn loop_condition(loops: &LoopCondition) -> String {
             "the condition number of φ_p is at most {largest}, at {at}, of {configurations} configurations"
         ),
     }
+}
+
+/// States how near the loops come to a dead point.
+pub(super) fn nearest_dead_point(loops: &LoopCondition, spec: &Spec) -> String {
+    format!(
+        "nearest dead point: {}; smallest singular value of φ_p {} at {}",
+        dead_point(loops.dead_point.as_ref(), spec),
+        number::digits(loops.smallest_singular, 3),
+        loops.smallest_at
+    )
 }
 
 /// Returns what first order is compared with.

@@ -1,11 +1,12 @@
 //! Freedoms of a machine with closed loops, and how these close at home.
 
 use abbe_spec::{Spec, Variable};
-use abbe_study::check::{Free, Loop, State, Tree};
+use abbe_study::check::{Free, Loop, LoopModes, Mode, State, Tree};
 use abbe_study::number::{self, counted, digits, short};
 
 use super::joint::joint;
 use crate::document::{Section, Table, first, joined, number as figures, words};
+use crate::views::shared::dead_point;
 
 /// Number of loops and of variables named in a sentence.
 const NAMED: usize = 6;
@@ -45,10 +46,35 @@ pub(super) fn sections(tree: &Tree, spec: &Spec) -> Vec<Section> {
         Section::full("Passive variables").table(passive).state(
             "condition",
             "The condition number is that of the derivatives of the equations by the passive variables at \
-             home, with lengths relative to the arm length."
+             home, with lengths relative to those of the loops."
                 .to_owned(),
         ),
+        modes(tree, spec),
     ]
+}
+
+/// Lists the assembly modes, each as values that choose it in the spec.
+fn modes(tree: &Tree, spec: &Spec) -> Section {
+    let found: &[LoopModes] = tree.home.as_ref().map_or(&[], |home| &home.modes);
+    let line = |LoopModes { loops, starts, .. }: &LoopModes, mode: &Mode| {
+        let values = mode.home.0.iter().map(|(name, value)| {
+            let same = spec.passive.iter().find(|variable| variable.name == *name);
+            let home = same.map(|variable| Variable { home: *value, ..variable.clone() });
+            let home = home.map_or(String::new(), |variable| joint(&variable, spec.length)[2].clone());
+            format!("{name} = \"{home}\"")
+        });
+        let own = if mode.is_chosen { ", of the spec" } else { "" };
+        let of = if found.len() > 1 { format!(" of {}", first(loops, NAMED)) } else { String::new() };
+        format!("{}  # {} of {starts} starts{of}{own}", joined(values), mode.starts)
+    };
+    let lines = found.iter().flat_map(|group| group.found.iter().map(move |mode| line(group, mode)));
+    Section::full("Assembly modes").code(
+        "modes",
+        "Positions in which the loops close with the commanded joints at home, within the limits: what Newton's \
+         method found from random positions of the passive joints; there may be more. Values written as `home` of \
+         these joints choose a mode.",
+        lines.collect(),
+    )
 }
 
 /// Returns the equations, the passive variables and their values in one sentence each.
@@ -82,6 +108,7 @@ pub(super) fn facts(tree: &Tree, spec: &Spec) -> Vec<(&'static str, String)> {
                 first(&values, NAMED)
             ),
         ),
+        ("", format!("nearest dead point: {}", dead_point(home.dead_point.as_ref(), spec))),
     ]
 }
 

@@ -10,6 +10,7 @@ use abbe_tests::specs;
 
 mod closed;
 mod closed_forms;
+mod modes;
 mod random;
 mod statics;
 
