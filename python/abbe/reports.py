@@ -1372,7 +1372,7 @@ class Home(Fields):
     """Condition number of φ_p in the 2-norm, with lengths relative to those of the loops; null if it is not finite."""
 
     smallest_singular: float | None
-    """Smallest singular value of φ_p; null if it is not finite."""
+    """Smallest singular value of φ_p, without a unit; null if it is not finite."""
 
     dead_point: DeadPoint | None = None
     """Nearest dead point that one joint reaches alone from home; absent if there is none within the limits of the
@@ -2013,7 +2013,7 @@ class LoopCondition(Fields):
     """Its configuration: differences from home."""
 
     smallest_singular: float
-    """Smallest singular value of the configurations."""
+    """Smallest singular value of the configurations, without a unit."""
 
     smallest_at: str
     """Its configuration: differences from home."""

@@ -59,7 +59,8 @@ fn modes(tree: &Tree, spec: &Spec) -> Section {
     let line = |LoopModes { loops, starts, .. }: &LoopModes, mode: &Mode| {
         let values = mode.home.0.iter().map(|(name, value)| {
             let same = spec.passive.iter().find(|variable| variable.name == *name);
-            let home = same.map(|variable| Variable { home: *value, ..variable.clone() });
+            let home =
+                same.map(|variable| Variable { home: (value * 1e9).round() / 1e9 + 0.0, ..variable.clone() });
             let home = home.map_or(String::new(), |variable| joint(&variable, spec.length)[2].clone());
             format!("{name} = \"{home}\"")
         });
