@@ -117,12 +117,6 @@ impl Identify {
                  cross-validation"
             ));
         }
-        if !self.terms.is_empty() || !self.harmonics.is_empty() {
-            machine.require_chain(
-                "no richer terms can be selected",
-                "leave `terms` and `harmonics` out, or declare the terms as sources with a `magnitude` in the spec",
-            )?;
-        }
         map.carried_targets(machine).iter().for_each(|warning| notes.warn(warning));
         let derived = derived(&machine.spec, map, &self.terms, &data);
         let spec = with_inputs(&machine.spec, &derived);

@@ -27,7 +27,7 @@ pub use job::Analyze;
 pub use loop_condition::{LoopCondition, NEARLY_SINGULAR};
 
 /// Reason why nothing is certified of machines that are not a chain.
-pub const NOT_CERTIFIED: &str = "bounds are proved for chains of frames only";
+pub const NOT_CERTIFIED: &str = "`abbe bound` proves a bound, which takes longer";
 pub use report::{
     AfterCompensation, Agreement, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis, Ledger,
     LedgerEntry, LongestEllipsoid, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport,

@@ -62,7 +62,10 @@ impl Bound {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, .. } = self;
         if self.least {
-            machine.require_chain("no dexterity or stiffness is bounded", "leave out `--least`")?;
+            machine.require_chain(
+                "no dexterity or stiffness is bounded",
+                "use `abbe bound` without `--least`, or `abbe check`, which names dead points",
+            )?;
         }
         let domain = Domain::new(machine, study)?;
         let Magnitudes { mut graph, repeatable, random, total, across_z, apart, implicit } =

@@ -27,11 +27,9 @@ const DIFFERENT: f64 = 1e-9;
 /// compared along this many sums of columns.
 const DIRECTIONS: usize = 60;
 
-/// The same for machines with loops, each evaluation of which closes them.
-const CLOSED: usize = 10;
-
 /// Compares `J_e` with `∂(X_real − X_ideal)/∂ε`: central differences of equation (6) with exact
-/// rotations. Machines with loops are compared along 10 directions, as in [`joint_jacobian`].
+/// rotations. Machines with loops, each evaluation of which closes them, are compared along
+/// directions as in [`joint_jacobian`].
 pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
     let orientation = description.orientation;
@@ -42,7 +40,7 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
         let units = Component::ALL.map(|component| if component.is_rotation() { 1.0 } else { subject.arm });
         if has_loops {
             let units: Vec<f64> = units.into_iter().cycle().take(count).collect();
-            let expected = directions(units.into_iter(), sample, description).into_iter().map(|direction| {
+            let expected = directions(units.into_iter(), sample).into_iter().map(|direction| {
                 let real = |step: f64| {
                     let errors = direction.from(&vec![0.0; count], step);
                     subject.displaced_pose(at, errors.as_chunks().0).ok()
@@ -92,9 +90,8 @@ fn factors(description: &Description, transforms: &[Pose]) -> Vec<Option<[Pose; 
 
 /// Compares `J_q` with `∂X_T/∂q`: central differences of the product of the transforms.
 ///
-/// With more than 60 joints, or 10 of a machine with loops, differences are taken along this many
-/// directions that move several joints at once. At each configuration every joint belongs to one
-/// direction.
+/// With more than 60 joints, differences are taken along 60 directions that move several joints at
+/// once. At each configuration every joint belongs to one direction.
 pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
     compare(manipulator, samples, description.variables.len(), |subject, sample, at, columns| {
@@ -103,7 +100,7 @@ pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
             VariableKind::Revolute => 1.0,
             VariableKind::Prismatic => subject.arm,
         });
-        let expected = directions(units, sample, description).into_iter().map(|direction| {
+        let expected = directions(units, sample).into_iter().map(|direction| {
             let moved = |step: f64| {
                 let q = direction.from(&at.given.q, step);
                 subject
@@ -128,7 +125,7 @@ pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Resu
             .parameters
             .iter()
             .map(|parameter| if parameter.unit == description.length.symbol() { subject.arm } else { 1.0 });
-        let expected = directions(units, sample, description).into_iter().map(|direction| {
+        let expected = directions(units, sample).into_iter().map(|direction| {
             let changed = |step: f64| {
                 let s = direction.from(&at.given.s, step);
                 subject
@@ -200,15 +197,11 @@ impl Direction {
     }
 }
 
-/// Returns one direction per value, scaled by its unit. More values than the machine has directions
-/// are grouped, differently in each sample, so that each value is in one direction. No step is
-/// longer than that of a single value.
-fn directions(
-    units: impl ExactSizeIterator<Item = f64>,
-    sample: usize,
-    description: &Description,
-) -> Vec<Direction> {
-    let count = units.len().min(if description.has_loops() { CLOSED } else { DIRECTIONS });
+/// Returns one direction per value, scaled by its unit. More than [`DIRECTIONS`] values are
+/// grouped, differently in each sample, so that each value is in one direction. No step is longer
+/// than that of a single value.
+fn directions(units: impl ExactSizeIterator<Item = f64>, sample: usize) -> Vec<Direction> {
+    let count = units.len().min(DIRECTIONS);
     let together = units.len().div_ceil(count.max(1)) as f64;
     let mut directions: Vec<Direction> = (0..count).map(|_| Direction(Vec::new())).collect();
     for (i, unit) in units.enumerate() {
