@@ -8,7 +8,7 @@ use abbe::{Component, Distribution, Manipulator, Orientation, Pose, deviation, d
 use abbe_interpreter::Interpreter;
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
-use abbe_metrology::identify::{Identify, Settings};
+use abbe_metrology::identify::{Family, Identify, Settings};
 use abbe_metrology::measure::Measure;
 use abbe_spec::Spec;
 use abbe_study::Machine;
@@ -253,4 +253,26 @@ fn noisy_platforms_are_identified() {
             assert!(left < most, "{count} {run}: {left} {most}");
         }
     }
+}
+
+/// The scale of one leg is selected from poses, and leaves no more than the noise.
+#[test]
+fn the_scale_of_a_leg_is_selected() {
+    let scale = "[[source]]\nname = \"scale\"\nclass = \"repeatable\"\njoint = \"q2\"\nerror = \"1e-3*q2\"\n";
+    let text = without_sources(&hexapod(&[[0.0; 7]; 6], "")) + scale;
+    let real = Interpreter::new(Spec::parse("real.toml", &text).unwrap());
+    let mut numbers = sampling::stream(23, 0);
+    let rows: Vec<Observation> = poses(&[[0.0; 7]; 6], 80)
+        .into_iter()
+        .map(|row| {
+            let pose = real.real_pose(&row.q, &[], &[]).unwrap();
+            with_noise(&Observation { measured: Measurement::Pose(Box::new(pose)), ..row }, &mut numbers)
+        })
+        .collect();
+    let plain = job(rows, true, ["0.01 mm", "20 urad"]);
+    let report = Identify { terms: vec![Family::Joint], ..plain }.run(&mut ()).unwrap();
+    let names: Vec<&str> = report.terms.iter().map(|term| &term.name[..]).collect();
+    assert!(names.iter().any(|name| name.contains("q2")), "{names:?}");
+    let most = 0.01 * 3_f64.sqrt() * (1.0 + 4.0 / (6.0 * 80_f64).sqrt());
+    assert!(report.fit.after.rms < most, "{} {most}", report.fit.after.rms);
 }

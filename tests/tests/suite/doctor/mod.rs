@@ -8,11 +8,14 @@ mod case;
 use std::f64::consts::PI;
 use std::path::Path;
 
+use abbe::Manipulator;
+use abbe_interpreter::Interpreter;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::doctor::{Change, Doctor, Interpretation, Report};
 use abbe_metrology::measure::Measure;
 use abbe_spec::Spec;
 use abbe_study::Machine;
+use abbe_tests::closed_machines::FOUR_BAR;
 
 use case::Mistake::*;
 use case::{ALL, Case, Mistake, Random, case, is_layout, text};
@@ -329,4 +332,21 @@ fn another_robot_is_said_to_be_another() {
             assert!(!report.fits, "{robot} as {other}: {:?}", report.found);
         }
     }
+}
+
+/// Rows of a machine with closed loops are read, too: its command in degrees with the other sign.
+#[test]
+fn rows_of_a_linkage_are_read() {
+    let robot = Interpreter::new(Spec::parse("linkage.toml", FOUR_BAR).unwrap());
+    let mut rows = "q1,x,y,z\n".to_owned();
+    for k in 0..12 {
+        let degrees = 35.0 + 6.5 * f64::from(k);
+        let [x, y, z] = robot.real_pose(&[degrees.to_radians()], &[], &[]).unwrap().position();
+        rows += &format!("{},{x:.4},{y:.4},{z:.4}\n", -degrees);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let report = run(FOUR_BAR, &rows, folder.path());
+    assert!(report.fits, "{:?}", report.found);
+    let map = report.map.unwrap();
+    assert!(map.contains("unit = \"deg\"") && map.contains("sign = -1"), "{map}");
 }
