@@ -107,9 +107,11 @@ fn error_of_joint(spec: &Spec, joint: usize) -> Option<(usize, Component)> {
 }
 
 fn joint(spec: &Spec, times: &[u16], exponents: &[u8]) -> Vec<Vec<Term>> {
-    let moved = spec.frames.iter().enumerate().filter_map(|(frame, has)| Some((frame, has.variable?)));
-    let groups = moved.flat_map(|(frame, variable)| {
-        let sites = Component::ALL.map(|component| ErrorSite::Frame(frame, component));
+    let groups = (0..spec.variables.len()).flat_map(|variable| {
+        // The variable of a leg has no frame.
+        let frame = spec.frames.iter().position(|frame| frame.variable == Some(variable));
+        let errors = |frame| Component::ALL.map(|component| ErrorSite::Frame(frame, component));
+        let sites = frame.into_iter().flat_map(errors);
         let bases: Vec<Vec<Basis>> = match spec.variables[variable].kind {
             VariableKind::Revolute => {
                 times.iter().map(|times| Basis::waves(Angle::times(variable, *times))).collect()
