@@ -54,7 +54,8 @@ pub(crate) fn run(arguments: &Merge) -> Result<Outcome, Failure> {
             }
             let mut outputs = Outputs::new(&arguments.parts, arguments.common.writing.force);
             let drawn = job.monte_carlo.is_some();
-            Some((folder, Files::for_parts(folder, &mut outputs, VaryingColumns::new(job), drawn)?, outputs))
+            outputs.folder(folder)?;
+            Some((folder, Files::begin(folder, &mut outputs, VaryingColumns::new(job), drawn)?, outputs))
         }
         None => None,
     };

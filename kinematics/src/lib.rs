@@ -26,6 +26,6 @@ pub use reach::{
 };
 pub use workspace::{
     Axis, BaseBox, JointGrid, JointSamples, Legs, Listed, One, PlatformGrid, Presentation, PresentedVolume,
-    ReachedBox, STREAM, Subset, ToolOrientation, Unreachable, WithInputs, Workspace, base_box, joint_grid,
-    joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
+    ReachedBox, STREAM, Show, Subset, ToolOrientation, Unreachable, WithInputs, Workspace, base_box,
+    joint_grid, joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
 };

@@ -1337,31 +1337,6 @@ class Gain(Fields):
     """Probability of a mean at least as far from 0 by chance if both models are equally good: paired t-test."""
 
 
-class HiddenNumber(Fields):
-    """Number of the machine that is hidden, or confused with a hidden one."""
-
-    name: str
-    """Name: `zero of q5`, `a of shoulder`, `e_x of wrist`."""
-
-    is_hidden: bool
-    """Is true if the planned rows determine it no better than to half of its prior."""
-
-    confused_with: list[str]
-    """Names of the numbers that it is confused with: the correlation is above one half."""
-
-    unit: str
-    """Unit: the length unit, or rad."""
-
-    prior: float
-    """Standard deviation of the prior, in `unit`."""
-
-    standard_deviation: float
-    """Predicted standard deviation after the planned measurement, in `unit`."""
-
-    standard_deviation_there: float
-    """Predicted standard deviation with the advised target at the same configurations, in `unit`."""
-
-
 class Home(Fields):
     """Loops at home."""
 
@@ -2682,11 +2657,6 @@ class PlanReport(Report):
     excludes them.
     """
 
-    mounting: TargetMounting | None
-    """Numbers of the machine that the targets hide, and a place for a target that shows them; none if they hide none
-    that another place shows.
-    """
-
 
 class PoseDifference(Fields):
     """Size of the differences of many pairs of poses."""
@@ -3300,31 +3270,6 @@ class Table(Fields):
 
     labels: list[str] | None = None
     """Texts of a first column, such as the station of each row; empty if there is none."""
-
-
-class TargetMounting(Fields):
-    """Numbers of the machine that the targets of a plan hide, and a place for a target that shows them."""
-
-    target_on_axis: str | None
-    """Last revolute joint, if all targets are on its axis."""
-
-    numbers: list[HiddenNumber]
-    """Hidden numbers, then those that they are confused with."""
-
-    position: list[float]
-    """Advised position of a target in the frame of the tool, in the length unit."""
-
-    distance: float
-    """Distance of that position from the planned target, or from the first of several, in the length unit."""
-
-    is_additional: bool
-    """Is true if the advised target is an additional one; otherwise it replaces the planned one."""
-
-    planned_targets: int
-    """Number of planned targets."""
-
-    is_exact: bool
-    """Is true if the place of the planned targets is known exactly, as that of the advised target must be."""
 
 
 class TermGain(Fields):

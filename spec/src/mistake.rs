@@ -22,12 +22,7 @@ pub fn with_help(subject: impl Display, message: impl Display, help: impl Displa
 /// Returns the diagnostics of a configuration, described by `at`, that could not be evaluated.
 ///
 /// The message names the sources that can have caused the error.
-pub fn not_evaluated(
-    subject: impl Display,
-    at: &str,
-    error: &Error,
-    description: &Description,
-) -> Diagnostics {
+pub fn not_evaluated(what: impl Display, at: &str, error: &Error, description: &Description) -> Diagnostics {
     let blamed = blamed(error, description);
     let help = match blamed.is_empty() {
         true => error.remedy().to_owned(),
@@ -45,7 +40,7 @@ pub fn not_evaluated(
             format!("at {at}: one of the sources {} has no finite value", names.join(", "))
         }
     };
-    with_help(subject, message, help)
+    with_help(what, message, help)
 }
 
 /// Describes an error with the name of the value that it counts: "joint variable q4 is not a finite

@@ -140,7 +140,7 @@ impl PredictedErrors {
 }
 
 /// Returns the pose of the tool in the last frame, from the nominal parameters.
-pub fn tool_in_last_frame(manipulator: &dyn Manipulator) -> Result<Pose, Error> {
+pub(crate) fn tool_in_last_frame(manipulator: &dyn Manipulator) -> Result<Pose, Error> {
     let description = manipulator.description();
     let home: Vec<f64> = description.variables.iter().map(|variable| variable.home).collect();
     let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];

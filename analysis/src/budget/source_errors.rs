@@ -95,13 +95,7 @@ impl PartialSourceErrors {
 
     /// Completes the figures of a source, given its error (or bound) at home and their mean
     /// square.
-    pub(super) fn finish(
-        self,
-        source: usize,
-        class: Class,
-        home: [f64; 3],
-        mean_square: f64,
-    ) -> SourceErrors {
+    pub(super) fn finish(self, source: usize, class: Class, home: [f64; 3], square: f64) -> SourceErrors {
         let Self { least, largest, worst, relative } = self;
         let none = Figures::default();
         let (plain_max, half_peak_to_peak, relative_to_home) = if worst.is_none() {
@@ -125,7 +119,7 @@ impl PartialSourceErrors {
             };
             (plain_max, half, [x, y, z, relative].into())
         };
-        let rms = mean_square.sqrt();
+        let rms = square.sqrt();
         SourceErrors { source, class, plain_max, half_peak_to_peak, relative_to_home, rms, worst }
     }
 }

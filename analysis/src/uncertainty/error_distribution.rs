@@ -72,7 +72,7 @@ impl ErrorDistribution {
         description: &Description,
         sources: &[[f64; 6]],
         measurand: Measurand,
-        correction: Option<Correction<'_>>,
+        correction: Option<Correction>,
     ) -> Self {
         let mut all = Self::new([0.0; 3], super::errors_at::random(description, sources, measurand));
         let is_position = measurand == Measurand::Position;
@@ -293,11 +293,7 @@ fn root_sum_of_squares(norms: impl Iterator<Item = f64>) -> f64 {
 impl ErrorsAt<'_> {
     /// Returns the distribution of the error, with the repeatable sources at their values or
     /// corrected.
-    pub fn distribution(
-        &self,
-        measurand: Measurand,
-        correction: Option<Correction<'_>>,
-    ) -> ErrorDistribution {
+    pub fn distribution(&self, measurand: Measurand, correction: Option<Correction>) -> ErrorDistribution {
         ErrorDistribution::at(self.description, &self.sources, measurand, correction)
     }
 }

@@ -104,15 +104,6 @@ pub fn whole(
     Ok(search.design((0..list.len()).collect(), 0))
 }
 
-impl Model<'_> {
-    /// Computes the information matrix `JᵀJ` of rows about the unknowns, with the derivatives J in
-    /// units of the uncertainty. `model_error` is that of an [`Objective`].
-    pub fn information(&self, rows: &[Observation], model_error: f64) -> Result<DMatrix<f64>, Failure> {
-        let all = Candidates::new(self, rows, model_error, &mut |_, _| {})?;
-        Ok(all.sum(&(0..all.len()).collect::<Vec<_>>()))
-    }
-}
-
 /// Returns a spread-out initial design; each `start` gives a different one.
 fn spread(n: usize, count: usize, start: usize) -> Vec<usize> {
     let mut chosen: Vec<usize> = match start {

@@ -156,19 +156,13 @@ impl Candidates {
     }
 
     /// Returns the loss of removing each of the chosen candidates.
-    pub(super) fn losses(
-        &self,
-        information: &Information,
-        criterion: Criterion,
-        chosen: &[usize],
-    ) -> Vec<f64> {
-        let mut losses = Vec::with_capacity(chosen.len());
-        for i in chosen {
+    pub(super) fn losses(&self, sum: &Information, criterion: Criterion, chosen: &[usize]) -> Vec<f64> {
+        let loss = |i: &usize| {
             let block = self.stack.rows(self.rows * i, self.rows).into_owned();
-            let (scaled, weighted) = information.products(&block, criterion);
-            losses.push(gain(&scaled, &weighted, self.rows, 0, -1.0));
-        }
-        losses
+            let (scaled, weighted) = sum.products(&block, criterion);
+            gain(&scaled, &weighted, self.rows, 0, -1.0)
+        };
+        chosen.iter().map(loss).collect()
     }
 }
 

@@ -68,18 +68,8 @@ impl Files {
         Ok(files)
     }
 
-    /// Begins the files that need no single configurations. Makes the folder if it does not exist.
-    pub(crate) fn for_parts(
-        folder: &Path,
-        outputs: &mut Outputs,
-        varying: VaryingColumns,
-        drawn: bool,
-    ) -> Result<Self, Failure> {
-        outputs.folder(folder)?;
-        Self::begin(folder, outputs, varying, drawn)
-    }
-
-    fn begin(
+    /// Begins the files that need no single configurations, in a folder that exists.
+    pub(crate) fn begin(
         folder: &Path,
         outputs: &mut Outputs,
         varying: VaryingColumns,
@@ -181,21 +171,17 @@ fn write_sources(writer: &mut Writer<impl Write>, report: &Report) -> csv::Resul
 
 /// Writes, for the worst configuration and for home, one row per quantile of the norm, and rows of
 /// the largest norm, the mean and the standard deviation.
-fn write_drawn(
-    writer: &mut Writer<impl Write>,
-    report: &Report,
-    drawn: &MonteCarloReport,
-) -> csv::Result<()> {
+fn write_drawn(table: &mut Writer<impl Write>, report: &Report, drawn: &MonteCarloReport) -> csv::Result<()> {
     let unit = report.spec.length.symbol();
     let figures =
         ["norm", "standard error of the norm", "x", "y", "z"].map(|figure| format!("{figure} ({unit})"));
     let heading = ["at", "draws", "seed", "figure"].map(str::to_owned).into_iter().chain(figures);
-    writer.write_record(heading.collect::<Vec<_>>())?;
+    table.write_record(heading.collect::<Vec<_>>())?;
     for (place, found) in drawn.results() {
         let (draws, seed) = (found.draws.to_string(), drawn.seed.to_string());
         let mut row = |figure: &str, cells: [String; 5]| {
             let head = [place, &draws, &seed, figure].map(str::to_owned);
-            writer.write_record(head.into_iter().chain(cells).collect::<Vec<_>>())
+            table.write_record(head.into_iter().chain(cells).collect::<Vec<_>>())
         };
         let none = String::new;
         for quantile in found.quantiles {

@@ -151,13 +151,8 @@ pub(crate) fn write(
 /// # Errors
 ///
 /// `check` needs a study with a tolerance.
-pub(crate) fn outcome(
-    report: &Report,
-    check: bool,
-    showing: &Showing,
-    next: &str,
-) -> Result<Outcome, Failure> {
-    let text = showing.answer(report, abbe_report::budget(report), next)?;
+pub(crate) fn outcome(report: &Report, check: bool, shown: &Showing, next: &str) -> Result<Outcome, Failure> {
+    let text = shown.answer(report, abbe_report::budget(report), next)?;
     match (check, report.verdict()) {
         (true, None) => Err(Failure::new("--check", "the study has no tolerance")
             .help("add one: --tolerance \"0.5 mm\", or tolerance = \"0.5 mm\" in its [study]")),

@@ -79,8 +79,9 @@ impl Routines {
                 // If no errors are to be corrected, the pose has the same bits as `pose`, and the
                 // correction is 0.
                 let Outputs { results, .. } = &alternatives[0];
-                let graph = &model.graph;
-                let program = Program::after(graph, &results[0], &results.concat(), &mut selections);
+                let (graph, all) = (&model.graph, results.concat());
+                let selection = selections.after(graph, &results[0], &all);
+                let program = Program::from_selection(graph, &all, selection);
                 at_once(model, &mut arrays, program)
             } else if let Some(call) = only {
                 vec![call]

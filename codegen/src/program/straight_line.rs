@@ -21,18 +21,8 @@ impl Program {
         Self::from_selection(graph, outputs, selections.select(graph, outputs))
     }
 
-    /// Returns the steps that compute the nodes, where `others` among them have the same bits as if
-    /// computed alone.
-    pub(super) fn after(
-        graph: &Graph,
-        others: &[Node],
-        outputs: &[Node],
-        selections: &mut Selections,
-    ) -> Self {
-        Self::from_selection(graph, outputs, selections.after(graph, others, outputs))
-    }
-
-    fn from_selection(graph: &Graph, outputs: &[Node], selection: Rc<Selection>) -> Self {
+    /// Returns the steps that compute the nodes as they are selected.
+    pub(super) fn from_selection(graph: &Graph, outputs: &[Node], selection: Rc<Selection>) -> Self {
         let mut program = Self {
             steps: Vec::new(),
             outputs: Vec::new(),

@@ -166,18 +166,13 @@ fn own_direction(machine: &RealMachine, variable: usize) -> Result<[f64; 3], Err
 /// Returns the error of the angle of a rotary axis of the workpiece, as a change of its variable.
 ///
 /// It is the rotation about the axis by the small motion `A⁻¹ Ã E` of its frame.
-pub(crate) fn angle_error(
-    machine: &RealMachine,
-    variable: usize,
-    q: &[f64],
-    u: &[f64],
-) -> Result<f64, Error> {
-    let frame = machine.spec.variables[variable].frame;
+pub(crate) fn angle_error(machine: &RealMachine, axis: usize, q: &[f64], u: &[f64]) -> Result<f64, Error> {
+    let frame = machine.spec.variables[axis].frame;
     let (nominal, _) = machine.links(q, &ChainErrors::none(&machine.spec))?;
     let (real, _) = machine.links(q, &machine.errors_at(q, u)?)?;
     let moved = nominal[frame].transform.inverse().then(&real[frame].transform).then(&real[frame].error);
     let [_, _, _, a, b, c] = deviation(Orientation::RotationVector, &Pose::IDENTITY, &moved);
-    Ok(dot([a, b, c], own_direction(machine, variable)?))
+    Ok(dot([a, b, c], own_direction(machine, axis)?))
 }
 
 /// Kinematics of a control that has the real poses of the rotary axes: its slides move the tool

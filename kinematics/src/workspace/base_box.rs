@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::axis::{combinations, combine};
-use super::{Axis, Workspace};
+use super::{Axis, Show, Workspace};
 use crate::Configuration;
 use crate::configuration::in_range;
 use crate::{Inverse, ReachError, Target};
@@ -111,11 +111,7 @@ impl Workspace for ReachedBox<'_> {
         filled
     }
 
-    fn fill_each(
-        &self,
-        indices: &[usize],
-        show: &mut dyn FnMut(usize, &mut Configuration, Result<(), ReachError>),
-    ) {
+    fn fill_each(&self, indices: &[usize], show: &mut Show<'_>) {
         let parts: Vec<_> = indices.iter().map(|index| self.parts(*index)).collect();
         let mut found: Vec<Result<Vec<f64>, ReachError>> = vec![Ok(Vec::new()); indices.len()];
         for approach in 0..self.inverses.len() {

@@ -6,6 +6,10 @@ use crate::Configuration;
 use crate::ReachError;
 use abbe_core::lanes::Tiles;
 
+/// Function that is shown configurations: the position of one in a list, the configuration, and
+/// whether it is reachable.
+pub type Show<'a> = dyn FnMut(usize, &mut Configuration, Result<(), ReachError>) + 'a;
+
 /// Set of configurations over which errors are analyzed, by index.
 ///
 /// Each configuration depends on its index alone, so that any part of the workspace can be
@@ -31,12 +35,7 @@ pub trait Workspace: Sync {
     /// Calls `show` with each of the configurations in turn, by its position in the list, as
     /// [`fill`](Self::fill) writes it. Overridden by workspaces that generate several faster than
     /// one by one. `show` may modify the configuration.
-    #[allow(clippy::type_complexity)]
-    fn fill_each(
-        &self,
-        indices: &[usize],
-        show: &mut dyn FnMut(usize, &mut Configuration, Result<(), ReachError>),
-    ) {
+    fn fill_each(&self, indices: &[usize], show: &mut Show<'_>) {
         let mut configuration = self.home().clone();
         for (place, index) in indices.iter().enumerate() {
             let filled = self.fill(*index, &mut configuration);

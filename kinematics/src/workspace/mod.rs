@@ -19,7 +19,7 @@ mod with_inputs;
 pub use axis::Axis;
 pub use base_box::{BaseBox, ReachedBox, ToolOrientation, base_box};
 pub use configuration_list::{Listed, listed};
-pub use configurations::{One, Workspace};
+pub use configurations::{One, Show, Workspace};
 pub use joint_grid::{JointGrid, joint_grid};
 pub use joint_samples::{JointSamples, STREAM, joint_samples, random_joint_samples};
 pub use platform_grid::{Legs, PlatformGrid, platform_grid};

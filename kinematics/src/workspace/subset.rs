@@ -1,6 +1,6 @@
 //! Evenly spread subsets of a workspace.
 
-use super::Workspace;
+use super::{Show, Workspace};
 use crate::Configuration;
 use crate::ReachError;
 
@@ -29,11 +29,7 @@ impl Workspace for Subset<'_> {
         self.workspace.fill(self.place(index), configuration)
     }
 
-    fn fill_each(
-        &self,
-        indices: &[usize],
-        show: &mut dyn FnMut(usize, &mut Configuration, Result<(), ReachError>),
-    ) {
+    fn fill_each(&self, indices: &[usize], show: &mut Show<'_>) {
         let places: Vec<usize> = indices.iter().map(|index| self.place(*index)).collect();
         self.workspace.fill_each(&places, show);
     }

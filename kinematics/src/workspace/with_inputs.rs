@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::axis::{combinations, combine};
-use super::{Axis, Workspace};
+use super::{Axis, Show, Workspace};
 use crate::Configuration;
 use crate::ReachError;
 use crate::configuration::in_range;
@@ -55,11 +55,7 @@ impl Workspace for WithInputs<'_> {
         filled
     }
 
-    fn fill_each(
-        &self,
-        indices: &[usize],
-        show: &mut dyn FnMut(usize, &mut Configuration, Result<(), ReachError>),
-    ) {
+    fn fill_each(&self, indices: &[usize], show: &mut Show<'_>) {
         let places: Vec<usize> = indices.iter().map(|index| self.split(*index).0).collect();
         self.workspace.fill_each(&places, &mut |place, configuration, filled| {
             combine(self.split(indices[place]).1, &self.inputs, &mut configuration.u);

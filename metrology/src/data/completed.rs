@@ -54,16 +54,15 @@ impl Data {
     /// Returns an error if no row is left.
     pub(crate) fn closed<'d>(
         data: Cow<'d, Self>,
-        manipulator: &Interpreter,
-        spec: &Spec,
+        machine: &Interpreter,
     ) -> Result<Cow<'d, Self>, Diagnostics> {
-        let s = nominal_parameters(manipulator.description());
+        let s = nominal_parameters(machine.description());
         let error = |row: &Observation| {
-            let nominal = manipulator.pose(&row.q, &s).err();
-            let error = nominal.or_else(|| manipulator.real_pose(&row.q, &s, &row.u).err());
+            let nominal = machine.pose(&row.q, &s).err();
+            let error = nominal.or_else(|| machine.real_pose(&row.q, &s, &row.u).err());
             error.filter(abbe::Error::is_open)
         };
-        let open: Vec<Option<abbe::Error>> = match spec.loops.is_empty() {
+        let open: Vec<Option<abbe::Error>> = match machine.spec().loops.is_empty() {
             true => Vec::new(),
             false => data.observations.iter().map(error).collect(),
         };
@@ -76,7 +75,7 @@ impl Data {
         for (row, error) in rows {
             match error {
                 Some(error) => {
-                    let further = explained.next().and_then(|_| open_loops(spec, &row.q, &s));
+                    let further = explained.next().and_then(|_| open_loops(machine.spec(), &row.q, &s));
                     data.leave_out(row.line, &further.unwrap_or_else(|| error.to_string()));
                 }
                 None => data.observations.push(row),

@@ -53,15 +53,10 @@ impl FromRows {
     }
 
     /// Computes the values in rows that are in order of time.
-    pub(crate) fn values(
-        &self,
-        manipulator: &dyn Manipulator,
-        spec: &Spec,
-        rows: &[&Observation],
-    ) -> Vec<f64> {
+    pub(crate) fn values(&self, machine: &dyn Manipulator, spec: &Spec, rows: &[&Observation]) -> Vec<f64> {
         match *self {
             Self::Approach(variable) => approaches(rows, variable),
-            Self::GravityMoment { variable, at } => moments(manipulator, spec, rows, variable, at),
+            Self::GravityMoment { variable, at } => moments(machine, spec, rows, variable, at),
         }
     }
 }

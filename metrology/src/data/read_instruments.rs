@@ -66,7 +66,7 @@ fn targets(item: &Item<'_>, frame: &TargetFrame) -> Option<Vec<Named>> {
         let position = target_position(&item, frame)?;
         Some(Named { name: name?, position })
     };
-    items.iter().map(|item| one(item)).collect()
+    items.iter().map(one).collect()
 }
 
 fn instrument(

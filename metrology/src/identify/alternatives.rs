@@ -52,7 +52,7 @@ pub(super) struct Significant<'a> {
 /// Explanations of the data of one fit.
 pub(super) struct Explanations<'a> {
     pub(super) spec: &'a Spec,
-    model: &'a Model<'a>,
+    pub(super) model: &'a Model<'a>,
     fit: &'a Fit,
     /// Cholesky decomposition of the covariance of the kept unknowns; none if it is singular.
     cholesky: Option<Cholesky<f64, Dyn>>,
@@ -77,6 +77,11 @@ impl<'a> Explanations<'a> {
             candidates,
             expected: [share * setup.arm, share],
         }
+    }
+
+    /// Returns a kept unknown by its index among these.
+    pub(super) fn kept(&self, index: usize) -> Unknown {
+        self.model.unknowns[self.fit.identifiable.kept[index]]
     }
 
     /// Returns the alternatives to one of the significant numbers, the best explanation first.
@@ -219,7 +224,7 @@ fn is_equal(a: &DVector<f64>, b: &DVector<f64>) -> bool {
 /// Returns the name of the last revolute joint if all targets are on its axis.
 ///
 /// A rotation by θ moves a point at the distance r from the axis by `2 r sin(θ/2)`.
-pub(crate) fn target_on_axis(setup: &Setup, rows: &[Observation]) -> Result<Option<String>, Failure> {
+pub(super) fn target_on_axis(setup: &Setup, rows: &[Observation]) -> Result<Option<String>, Failure> {
     const ANGLE: f64 = 0.7;
     let mut variables = setup.description.variables.iter().enumerate();
     let last = variables.rfind(|(_, variable)| variable.kind == VariableKind::Revolute);

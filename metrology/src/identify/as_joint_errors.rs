@@ -111,16 +111,11 @@ impl AsJointErrors {
     }
 
     /// Returns the significant errors, with their alternatives.
-    pub(super) fn joint_errors(
-        &self,
-        explanations: &Explanations,
-        model: &Model,
-        fit: &Fit,
-    ) -> Vec<JointError> {
+    pub(super) fn joint_errors(&self, explanations: &Explanations) -> Vec<JointError> {
         let names = self.significant().map(|one| one.name.as_str()).collect();
-        let errors = self.significant_others(model, fit).collect();
+        let errors = self.significant_others(explanations).collect();
         let significant = Significant { names, errors };
-        let joint_error = |one: &FoundNumber| one.joint_error(&significant, explanations, model, fit);
+        let joint_error = |one: &FoundNumber| one.joint_error(&significant, explanations);
         self.significant().map(joint_error).collect()
     }
 
@@ -137,9 +132,8 @@ impl AsJointErrors {
     }
 
     /// Returns the indices among the kept unknowns of the other significant errors of the machine.
-    fn significant_others(&self, model: &Model, fit: &Fit) -> impl Iterator<Item = usize> {
-        let is_error =
-            |index: usize| matches!(model.unknowns[fit.identifiable.kept[index]], Unknown::Error(..));
+    fn significant_others(&self, explanations: &Explanations) -> impl Iterator<Item = usize> {
+        let is_error = |index: usize| matches!(explanations.kept(index), Unknown::Error(..));
         let others = self.others.iter();
         others.filter_map(move |(index, value, deviation)| {
             (is_error(*index) && value.abs() > SIGNIFICANT * deviation).then_some(*index)
@@ -193,15 +187,9 @@ impl AsJointErrors {
 }
 
 impl FoundNumber {
-    fn joint_error(
-        &self,
-        significant: &Significant,
-        explanations: &Explanations,
-        model: &Model,
-        fit: &Fit,
-    ) -> JointError {
+    fn joint_error(&self, significant: &Significant, explanations: &Explanations) -> JointError {
         let Self { name: number, number: of, index, value, standard_deviation, .. } = self.clone();
-        let in_place_of = model.name(model.unknowns[fit.identifiable.kept[index]]);
+        let in_place_of = explanations.model.name(explanations.kept(index));
         let unit = error_unit(explanations.spec, is_angle(explanations.spec, of));
         let alternatives = explanations.alternatives(&number, value, standard_deviation, significant);
         JointError { in_place_of, number, value, standard_deviation, unit, alternatives }

@@ -35,7 +35,7 @@ pub(crate) fn chain_errors(spec: &Spec) -> Vec<ChainError> {
 }
 
 /// Returns an error of a frame as a number: `e_x of wrist`.
-pub(crate) fn frame_error(spec: &Spec, frame: usize, component: Component) -> ChainError {
+pub(super) fn frame_error(spec: &Spec, frame: usize, component: Component) -> ChainError {
     ChainError {
         name: format!("{} of {}", component.name(), spec.frames[frame].name),
         is_angle: component.is_rotation(),

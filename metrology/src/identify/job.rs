@@ -122,7 +122,7 @@ impl Identify {
         let spec = with_inputs(&machine.spec, &derived);
         let nominal = Interpreter::new(spec.clone());
         let completed = |data, fitted| {
-            let data = Data::closed(Data::complete(data, map, &nominal, &spec), &nominal, &spec)?;
+            let data = Data::closed(Data::complete(data, map, &nominal, &spec), &nominal)?;
             Ok(with_columns(&nominal, &spec, &derived, data, fitted))
         };
         let data = completed(data, true)?;
@@ -133,15 +133,13 @@ impl Identify {
         let terms = [leg_terms(&spec), chosen.terms()].concat();
         let interpreter = input.interpreter(&terms);
         let (setup, solved) = input.complete_fit(&interpreter, &terms, sets.is_empty(), notes)?;
-        let profiles = find_profiles(&self.terms, &spec, (&setup, &solved), &data, settings, notes)?;
+        let profiles = find_profiles(&self.terms, &input, (&setup, &solved), notes)?;
         let profiled = profiles
             .found
             .as_ref()
             .map(|found| FitInput { spec: &found.added_to(&spec), ..input }.interpreter(&terms));
         let (setup, mut solved) = match (profiles.found, &profiled) {
-            (Some(found), Some(profiled)) => {
-                found.refit(profiled, (setup, solved), (&spec, map, &data), settings, notes)?
-            }
+            (Some(found), Some(profiled)) => found.refit(profiled, (setup, solved), &input, notes)?,
             _ => (setup, solved),
         };
         solved.notes.extend(profiles.note);
@@ -221,7 +219,7 @@ fn found_model(
     let left_of_both = [left, identified.cross_validation.after.rms];
     Ok(FoundModel {
         derived: identified.derived.to_vec(),
-        joint_errors: joint_errors.joint_errors(&explanations, model, fit),
+        joint_errors: joint_errors.joint_errors(&explanations),
         undetermined: UndeterminedDirections::new(setup, solved, converted, rows)?,
         estimated,
         unexplained: unexplained(setup, solved, rows, left)?,

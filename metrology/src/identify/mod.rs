@@ -114,13 +114,11 @@ pub use weakly_determined::WeaklyDetermined;
 
 pub use crate::sizes::Sizes;
 
-pub(crate) use alternatives::target_on_axis;
-pub(crate) use chain_numbers::{ChainError, chain_errors, frame_error};
+pub(crate) use chain_numbers::chain_errors;
 pub(crate) use indistinguishable::indistinguishable;
 pub(crate) use interpretation_check::check_interpretation;
 pub(crate) use line_of_sight::{nothing_readable, readable_configurations};
 pub(crate) use plausibility::{check_plausibility, too_large};
 pub(crate) use scale::scale_note;
 pub(crate) use setup::Setup;
-pub(crate) use undetermined::effects;
 pub(crate) use unexplained::unknown_sources;

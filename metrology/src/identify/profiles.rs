@@ -19,15 +19,13 @@ use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::{ChainNumber, Deviation, DeviationCause, Source, Spec};
 
 use super::as_joint_errors::number_terms;
+use super::complete_fit::FitInput;
 use super::families::Family;
-use super::instruments::estimate;
 use super::joint_profiles::{JointProfile, JointProfiles};
-use super::options::Settings;
 use super::profile_table::{ProfileTable, table_name};
 use super::setup::Setup;
 use super::solve::{Solved, solve};
 use super::terms::ErrorSite;
-use crate::data::{Data, Map};
 use abbe_study::number::digits;
 use abbe_study::{Notes, mistake};
 
@@ -62,12 +60,11 @@ pub(super) struct FoundProfiles {
 /// family instead of trying all.
 pub(super) fn find_profiles(
     families: &[Family],
-    spec: &Spec,
+    input: &FitInput,
     fitted: (&Setup, &Solved),
-    data: &Data,
-    settings: &Settings,
     notes: &mut dyn Notes,
 ) -> Result<ProfileTrial, Diagnostics> {
+    let data = input.data;
     if !families.contains(&Family::Profile) {
         return Ok(ProfileTrial::default());
     }
@@ -77,7 +74,7 @@ pub(super) fn find_profiles(
         let help = "leave out `profile`, or read the instrument as an `indicator` with its zero";
         return Err(mistake::with_help(&data.file, message, help));
     }
-    Ok(match find(spec, fitted, data, settings, notes)? {
+    Ok(match find(input, fitted, notes)? {
         Ok(found) => ProfileTrial { found: Some(found), note: None },
         Err(reason) => {
             let note = is_named.then(|| format!("note: no profiles of joints: {reason}"));
@@ -90,12 +87,11 @@ pub(super) fn find_profiles(
 ///
 /// The manipulator of the setup ends with the [`number_terms`] of `spec`.
 fn find(
-    spec: &Spec,
+    input: &FitInput,
     (setup, solved): (&Setup, &Solved),
-    data: &Data,
-    settings: &Settings,
     notes: &mut dyn Notes,
 ) -> Result<Result<FoundProfiles, String>, Diagnostics> {
+    let FitInput { spec, data, settings, .. } = *input;
     let rows = &data.observations;
     let (moving, offered) = joints(spec, setup, rows);
     if let Some(missing) = missing(rows, if offered.is_empty() { &moving } else { &offered }) {
@@ -231,21 +227,19 @@ impl FoundProfiles {
         self,
         interpreter: &'a Interpreter,
         (first_setup, first): (Setup<'a>, Solved<'a>),
-        (spec, map, data): (&Spec, &Map, &Data),
-        settings: &Settings,
+        input: &FitInput,
         notes: &mut dyn Notes,
     ) -> Result<(Setup<'a>, Solved<'a>), Diagnostics> {
-        let fail = |failure| mistake::whole(&data.file, &failure);
+        let FitInput { spec, data, settings, .. } = *input;
         let added = first_setup.description.sources.len() - first_setup.declared;
-        let mut setup = Setup::new(interpreter, map, data, added)?;
-        setup.come_near(data).map_err(fail)?;
-        estimate(&mut setup, map, data, settings)?;
+        let mut setup = input.setup(interpreter, added, false, notes)?;
         let mut solved = solve(&setup, data, &first.own, &first.terms, settings, notes)?;
         setup.delivered = first_setup.delivered;
         let sigma = self.fitted.add_uncertainty(&mut solved.fit);
         let mut joints = self.joints;
         joints.iter_mut().for_each(|joint| joint.standard_deviation *= sigma);
-        let deviation = tool_point_deviation(spec, &setup, &data.observations, &joints).map_err(fail)?;
+        let deviation = tool_point_deviation(spec, &setup, &data.observations, &joints)
+            .map_err(|failure| mistake::whole(&data.file, &failure))?;
         let [before, after] = [&first.cross_validated, &self.fitted.cross_validated].map(Distances::figures);
         let profiles = JointProfiles {
             before: before.into(),

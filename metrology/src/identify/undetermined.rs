@@ -157,7 +157,7 @@ fn machine_unknowns(model: &Model) -> Vec<usize> {
 
 /// Computes G, the displacements of three points of the tool by each unknown at configurations
 /// within the joint limits. The points are as far from each other as the arm is long.
-pub(crate) fn effects(setup: &Setup, model: &Model, columns: &[usize]) -> Result<DMatrix<f64>, Failure> {
+fn effects(setup: &Setup, model: &Model, columns: &[usize]) -> Result<DMatrix<f64>, Failure> {
     let all: Vec<usize> = (0..setup.description.variables.len()).collect();
     let samples = joint_samples(model.manipulator, &all, SAMPLES).map_err(Failure::Machine)?;
     let nothing = || Measurement::Points(Vec::new().into());

@@ -104,13 +104,8 @@ impl<'a> PredictionRegion<'a> {
 
     /// Returns the Mahalanobis distance `√(eᵀ C⁻¹ e)` of a residual, with
     /// `C = Σ variance · m mᵀ + σ²` and m the displacement by a source of magnitude 1.
-    fn distance(
-        &self,
-        model: &mut EvaluatedModel,
-        row: &Observation,
-        point: [f64; 3],
-    ) -> Result<f64, Failure> {
-        let (ideal, moves) = model.tool(row)?;
+    fn distance(&self, at: &mut EvaluatedModel, row: &Observation, point: [f64; 3]) -> Result<f64, Failure> {
+        let (ideal, moves) = at.tool(row)?;
         let rest: [f64; 3] = std::array::from_fn(|k| point[k] - ideal.position()[k]);
         let noise = self.setup.real.uncertainty.length.powi(2) / row.weight;
         let mut covariance = [[noise, 0.0, 0.0], [0.0, noise, 0.0], [0.0, 0.0, noise]];

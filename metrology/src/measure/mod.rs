@@ -210,7 +210,7 @@ impl Measure {
             Cow::Owned(completed) => completed,
             Cow::Borrowed(_) => data,
         };
-        let data = Data::closed(Cow::Owned(data), &interpreter, &machine.spec)?.into_owned();
+        let data = Data::closed(Cow::Owned(data), &interpreter)?.into_owned();
         map.carried_targets(machine).iter().for_each(|warning| notes.warn(warning));
         let mut setup = Setup::new(&interpreter, map, &data, 0)?;
         let fitted = check_interpretation(&setup, map, &data)?;

@@ -5,7 +5,7 @@ use std::mem::take;
 
 use abbe::identify::Observation;
 use abbe_interpreter::Interpreter;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Diagnostics;
 
 use crate::data::{Data, Dated, Map, Source};
 use abbe_study::date::{Calendar, in_name, parse_date};
@@ -83,19 +83,14 @@ impl Checks {
         Ok(Self { calendar, list: checks.into_iter().map(|(_, check)| check).collect(), since: None })
     }
 
-    /// Returns the checks with the inputs derived from their rows. `manipulator` is the interpreter
-    /// of the spec.
-    pub(super) fn completed(
-        &self,
-        map: &Map,
-        manipulator: &Interpreter,
-        spec: &Spec,
-    ) -> Result<Cow<'_, Self>, Diagnostics> {
+    /// Returns the checks with the inputs derived from their rows.
+    pub(super) fn completed(&self, map: &Map, machine: &Interpreter) -> Result<Cow<'_, Self>, Diagnostics> {
+        let spec = machine.spec();
         if !map.follows_from_rows() && spec.loops.is_empty() {
             return Ok(Cow::Borrowed(self));
         }
         let one = |check: &Check| {
-            let data = Data::closed(check.data.completed(map, manipulator, spec), manipulator, spec)?;
+            let data = Data::closed(check.data.completed(map, machine, spec), machine)?;
             Ok(Check { data: data.into_owned(), time: check.time })
         };
         let list = self.list.iter().map(one).collect::<Result<_, Diagnostics>>()?;

@@ -43,7 +43,7 @@ impl Monitor {
         let Self { machine, map, checks, settings } = self;
         let spec = &machine.spec;
         let interpreter = Interpreter::new(spec.clone());
-        let checks = &checks.completed(map, &interpreter, spec)?;
+        let checks = &checks.completed(map, &interpreter)?;
         let (numbers, model) = CheckValues::new(&interpreter, map, checks, notes)?;
         let errors = SingleErrors::new(spec, &model, &numbers);
         let limit = Limit::new(settings, errors.charts.len() + 1);

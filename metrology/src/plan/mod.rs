@@ -2,7 +2,6 @@
 //! workspace of use.
 
 mod keys;
-mod mounting;
 pub mod options;
 mod report;
 mod sets;
@@ -25,10 +24,8 @@ use crate::identify::{
 };
 use abbe_study::workspace::has_range;
 use abbe_study::{Machine, Notes, Study, finite, mistake};
-use mounting::Assessed;
 
 pub use keys::{TABLES, rules};
-pub use mounting::{HiddenNumber, TargetMounting};
 pub use report::{Input, Predicted, Report, UndeterminedError};
 pub use sets::{SetSize, Sets};
 
@@ -136,15 +133,6 @@ impl Plan {
         let groups =
             rows.first().map_or(Ok(Vec::new()), |row| indistinguishable(&model, &row.q, &moved, setup.pose));
         let groups = groups.map_err(|error| mistake::whole(&machine.origin, &error))?;
-        let assessed = Assessed {
-            spec: &machine.spec,
-            setup: &setup,
-            model: &model,
-            rows: &rows,
-            used: &used,
-            model_error,
-        };
-        let mounting = assessed.mounting().map_err(fail)?;
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
@@ -161,7 +149,6 @@ impl Plan {
             exchanges: design.exchanges,
             model_error: self.model_error,
             unseen,
-            mounting,
             used: used.len(),
             predicted: Predicted { mean: spread.mean, rms: spread.rms, max: spread.max, p95: spread.p95 },
             groups,

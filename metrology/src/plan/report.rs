@@ -3,7 +3,6 @@
 use abbe::identify::{Model, Observation};
 use serde::Serialize;
 
-use super::mounting::TargetMounting;
 use super::sets::SetSize;
 use crate::data::{Map, Table};
 use crate::identify::{Counts, Indistinguishable, WeaklyDetermined};
@@ -49,9 +48,6 @@ pub struct Report {
     /// Errors that move the tool point at these configurations but that the rows cannot determine.
     /// `predicted` excludes them.
     pub unseen: Vec<UndeterminedError>,
-    /// Numbers of the machine that the targets hide, and a place for a target that shows them; none
-    /// if they hide none that another place shows.
-    pub mounting: Option<TargetMounting>,
     /// Combinations of unknowns that cannot be distinguished, with the reason.
     #[serde(skip)]
     pub groups: Vec<Indistinguishable>,

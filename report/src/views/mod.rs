@@ -13,7 +13,6 @@ mod exported;
 mod identification;
 mod measurement;
 mod monitoring;
-mod mounting;
 mod plan;
 mod positioning;
 mod shared;

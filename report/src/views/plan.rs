@@ -7,7 +7,6 @@ use abbe_spec::option::MODEL_ERROR_LENGTH;
 use abbe_study::number::{digits, error_unit, quantity};
 
 use super::identification::indistinguishable;
-use super::mounting;
 use crate::document::{Document, Section, Table, first, joined, number, words};
 
 /// Number of errors named on the first screen.
@@ -62,10 +61,6 @@ fn facts(map: &Map, report: &Report) -> Vec<(&'static str, String)> {
         let names: Vec<&str> = report.unseen.iter().map(|error| error.name.as_str()).collect();
         let text = "not observable in these rows, but they move the tool point in use";
         facts.push(("Unseen", format!("{}: {text}", first(&names, NAMED))));
-    }
-    if let Some(mounting) = &report.mounting {
-        facts.push(("Hidden", mounting::statement(mounting)));
-        facts.push(("Mount", mounting::advice(mounting, report.length)));
     }
     if !report.weakly_determined.is_empty() {
         let names: Vec<&str> = report.weakly_determined.iter().map(|error| error.name.as_str()).collect();

@@ -45,13 +45,7 @@ impl Expression {
         self.combined(Binary::Pow, Self::from_number(exponent, Dimension::NONE), dimension, value)
     }
 
-    fn combined(
-        self,
-        operator: Binary,
-        right: Self,
-        dimension: Option<Dimension>,
-        value: Option<f64>,
-    ) -> Self {
+    fn combined(self, binary: Binary, right: Self, dimension: Option<Dimension>, value: Option<f64>) -> Self {
         let left = self.terms().len();
         let place = left + right.terms().len();
         let mut terms = self.into_terms();
@@ -61,7 +55,7 @@ impl Expression {
                 .into_iter()
                 .map(|term| Term { kind: term.kind.map(|operand| operand + left), ..term }),
         );
-        Self::new(terms).with(Kind::Binary(operator, left - 1, place - 1), dimension, value)
+        Self::new(terms).with(Kind::Binary(binary, left - 1, place - 1), dimension, value)
     }
 
     fn with(self, kind: Kind, dimension: Option<Dimension>, value: Option<f64>) -> Self {

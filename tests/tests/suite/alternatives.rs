@@ -82,19 +82,7 @@ pub(super) fn identified_from(
     share: f64,
     seed: u64,
 ) -> Report {
-    identified_at(Places::Samples(60), machine, nominal, data, share, seed)
-}
-
-/// Identifies the errors of a machine from points simulated at these configurations.
-pub(super) fn identified_at(
-    at: Places,
-    machine: Machine,
-    nominal: Machine,
-    data: &str,
-    share: f64,
-    seed: u64,
-) -> Report {
-    let map = point_map(&nominal, data);
+    let (map, at) = (point_map(&nominal, data), Places::Samples(60));
     let job = Simulate { machine, map: map.clone(), at, noise: None, outliers: 0.0, random: false, seed };
     let observations = job.run(&mut ()).expect("it is simulated").observations;
     let data = Data { file: "data.csv".to_owned(), observations, ..Data::default() };

@@ -40,7 +40,6 @@ mod laws;
 mod long_chains;
 mod loops;
 mod machine_tool;
-mod mounting;
 mod mutants;
 mod operations;
 mod options;

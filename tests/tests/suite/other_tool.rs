@@ -21,7 +21,7 @@ const OTHER: &str = "Tx(90 mm) Ty(-40 mm) Tz(250 mm)";
 const MEASURED: &str = "Tx(TOOL mm) Tz(126 mm)";
 
 /// Sum of the lengths of the arm with the measured tool, in mm: priors are shares of it.
-pub(super) fn arm_length() -> f64 {
+fn arm_length() -> f64 {
     let interpreter = Interpreter::new(arm(0.0, "").spec);
     let parameters = abbe::analysis::sampling::nominal_parameters(interpreter.description());
     abbe::analysis::sampling::arm_length(&interpreter, &parameters).expect("an arm")

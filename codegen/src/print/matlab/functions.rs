@@ -11,17 +11,11 @@ use crate::print::layout::Writer;
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
 use crate::print::text::sizes;
-use crate::program::{Role, Routine, Routines};
+use crate::program::Role;
 
 /// Prints one function.
-pub(super) fn function(
-    writer: &mut Writer,
-    class: &str,
-    spec: &Spec,
-    routines: &Routines,
-    routine: &Routine,
-) {
-    let flat = Flat { routines, routine };
+pub(super) fn function(writer: &mut Writer, class: &str, spec: &Spec, flat: Flat<'_>) {
+    let Flat { routines, routine } = flat;
     let Statements { list, .. } = Statements::new(spec, flat, &Matlab { class, spec });
     let names = |role| routine.arrays.iter().filter(move |array| array.role == role).map(|array| array.name);
     let arguments: Vec<&str> = names(Role::Argument).collect();
@@ -97,12 +91,8 @@ pub(super) fn documentation(
 }
 
 /// Prints the checks of sizes and of the ranges of inputs.
-pub(super) fn checks<'a>(
-    writer: &mut Writer,
-    class: &str,
-    arguments: impl Iterator<Item = (&'a str, usize)>,
-) {
-    for (name, count) in arguments {
+pub(super) fn checks<'a>(writer: &mut Writer, class: &str, given: impl Iterator<Item = (&'a str, usize)>) {
+    for (name, count) in given {
         writer.lines(&format!("{class}.is_given('{name}', {name}, {count});"));
         if name == "u" && count > 0 {
             let outside = format!("u(:) < {class}.ranges(:, 1) | u(:) > {class}.ranges(:, 2)");

@@ -20,6 +20,7 @@ use abbe_spec::expr::Table;
 use self::functions::function;
 use self::operators::{WORDS, number, spelled};
 use self::procedures::{MatlabPrinter, list};
+use super::flat::Flat;
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;
@@ -61,7 +62,7 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
         printer.helper(&described_table(table), &function_of(&name), Some(&name));
     }
     for routine in &routines.list {
-        function(&mut writer, &class, spec, routines, routine);
+        function(&mut writer, &class, spec, Flat { routines, routine });
     }
     compensated::compensated(&mut writer, &class, spec, routines);
     writer.close("end");

@@ -108,18 +108,12 @@ impl Tiles {
     }
 
     /// Sets some rows of `count` configurations from `first` on, configuration after configuration.
-    /// `value` is called with the index into `rows`.
+    /// `at` is called with the index into `rows`.
     ///
     /// # Panics
     ///
     /// Panics if a row or a configuration is out of range.
-    pub fn set_each(
-        &mut self,
-        rows: &[usize],
-        first: usize,
-        count: usize,
-        mut value: impl FnMut(usize) -> f64,
-    ) {
+    pub fn set_each(&mut self, rows: &[usize], first: usize, count: usize, mut at: impl FnMut(usize) -> f64) {
         assert!(
             rows.iter().all(|row| *row < self.rows) && first + count <= self.count,
             "no such row or configuration"
@@ -130,7 +124,7 @@ impl Tiles {
         for configuration in first..first + count {
             let start = (((configuration >> shift) * height) << shift) + (configuration & (width - 1));
             for (which, row) in rows.iter().enumerate() {
-                numbers[start + (row << shift)] = value(which);
+                numbers[start + (row << shift)] = at(which);
             }
         }
     }
