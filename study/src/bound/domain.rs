@@ -107,7 +107,7 @@ impl Domain {
         }
         let mut watch = |progress: &Progress| {
             let is_given_up = progress.certified.is_infinite() && progress.boxes >= GIVE_UP_BOXES;
-            !(is_given_up && !implicit.is_empty()) && watch(progress)
+            (implicit.is_empty() || !is_given_up) && watch(progress)
         };
         abbe_bound::largest(
             graph,

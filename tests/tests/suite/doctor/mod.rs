@@ -8,7 +8,6 @@ mod case;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use abbe::Manipulator;
 use abbe_interpreter::Interpreter;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::doctor::{Change, Doctor, Interpretation, Report};
