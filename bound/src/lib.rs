@@ -12,8 +12,8 @@
 //!   bound how far the value can exceed that at the centre of the box.
 //!
 //! `search` examines the boxes of a `problem`, the most promising first, and starts with the
-//! maximum of a `local_search`. What loops determine is enclosed as `unknowns`. `period` recognizes joints that are periodic, and `apart` bounds
-//! sums by their parts.
+//! maximum of a `local_search`. `unknowns` encloses what loops determine. `period` recognizes
+//! joints that are periodic, and `apart` bounds sums by their parts.
 //!
 //! ```
 //! use abbe_codegen::chain::Magnitude;

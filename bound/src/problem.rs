@@ -40,8 +40,8 @@ impl Problem {
     }
 
     /// Returns an enclosure of the value within a box, of the number that is largest at most;
-    /// unbounded where unknowns may not exist. Unknowns are followed from where they are `known`, which
-    /// becomes the centre.
+    /// unbounded where unknowns may not exist. Unknowns are followed from where they are `known`,
+    /// which becomes the centre.
     pub(crate) fn value_within<const N: usize>(
         &self,
         buffers: &mut Buffers<N>,

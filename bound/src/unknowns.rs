@@ -30,7 +30,7 @@ const RADII: usize = 6;
 /// Shortest piece of the way from home, as a share of it.
 const SHORTEST: f64 = 1.0 / 4096.0;
 
-/// What determines the unknowns, and where they are at home.
+/// Unknowns with the equations that determine them, and their values at home.
 pub(crate) struct Unknowns {
     /// Values of the names at home.
     home: Vec<f64>,
@@ -109,8 +109,8 @@ impl Unknowns {
     }
 
     /// Returns the forms of the names and of the unknowns; `None` if the unknowns may not exist
-    /// within the box, or may meet other solutions there. The way to the centre begins where `known`
-    /// was reached, or at home, and the centre becomes known.
+    /// within the box, or may meet other solutions there. The way to the centre begins where
+    /// `known` was reached, or at home, and the centre becomes known.
     pub(crate) fn enclose<const N: usize>(
         &self,
         buffers: &mut Buffers<N>,

@@ -311,8 +311,8 @@ class BoundReport(Report):
     """First-order error of the repeatable sources; None if there are none."""
 
     after_one_step: StepResidual | None
-    """Error of the repeatable sources after one step of compensation; None without repeatable sources or with fewer
-    than three joints.
+    """Error of the repeatable sources after one step of compensation; None without repeatable sources, with fewer
+    than three joints, or with branches or loops.
     """
 
     margin: Margin | None
@@ -330,7 +330,7 @@ class BoundReport(Report):
     """
 
     box: Named[list[float]]
-    """Ranges of all moving joint variables, parameters and inputs."""
+    """Ranges of all moving joint variables, parameters and inputs, or of given passive variables."""
 
     contains_more: bool
     """Indicates that the enclosing box is larger than the workspace of the study."""

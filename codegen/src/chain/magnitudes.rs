@@ -81,7 +81,7 @@ pub struct Magnitudes {
     pub across_z: [Magnitude; 3],
     /// Parts of all magnitudes; `None` unless the frames are a chain.
     pub apart: Option<PerFrameMagnitudes>,
-    /// What the loops determine; the nodes read it as symbols.
+    /// Unknowns that the loops determine; the nodes read them as symbols.
     pub implicit: Vec<Implicit>,
 }
 
@@ -147,8 +147,8 @@ struct ToolDisplacement {
 }
 
 impl Magnitudes {
-    /// Builds the magnitudes of a checked spec, as functions of the joint variables, or of the passive
-    /// ones that are `given`.
+    /// Builds the magnitudes of a checked spec, as functions of the joint variables, or of the
+    /// passive ones that are `given`.
     pub fn new(spec: &Spec, given: &[usize]) -> Self {
         let (mut graph, effects) = sources::effects(spec);
         let g = &mut graph;

@@ -27,7 +27,7 @@ pub struct Remainder {
     pub magnitude: Magnitude,
     /// t.
     pub share: Symbol,
-    /// What the loops determine; the nodes read it as symbols.
+    /// Unknowns that the loops determine; the nodes read them as symbols.
     pub implicit: Vec<Implicit>,
 }
 

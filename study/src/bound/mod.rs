@@ -138,7 +138,7 @@ const NOTHING: f64 = 0.1;
 struct Searches<'a> {
     job: &'a Bound,
     domain: &'a Domain,
-    /// What loops determine.
+    /// Unknowns that loops determine.
     implicit: &'a [Implicit],
     begun: Instant,
     /// Number of completed searches.

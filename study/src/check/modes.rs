@@ -53,7 +53,7 @@ pub struct Mode {
 /// Closed position of some loops.
 struct Closed {
     passive: Vec<f64>,
-    /// Where the frames are.
+    /// Places of the frames.
     place: Vec<f64>,
     starts: usize,
     is_mode: bool,
