@@ -30,8 +30,8 @@ impl Domain {
 
     /// Bounds the error of the repeatable sources after one step of compensation, where tables hold
     /// their last value if the step goes beyond their ends; `None` without repeatable sources, with
-    /// too few joints or for a tree of frames. Stops where it may exceed `before`, the error without
-    /// compensation.
+    /// too few joints or for a tree of frames. Stops where it may exceed `before`, the error
+    /// without compensation.
     pub(super) fn after_step(
         &self,
         requested: &Effort,

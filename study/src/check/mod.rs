@@ -1,9 +1,9 @@
 //! Checks a spec, and reports what follows from it.
 //!
 //! `facts` holds the content of the spec, `chain` its matrices at home, `tree` what closed loops
-//! leave free, `modes` other ways in which they close, `angles` suspicious angles, `axes` unexpected
-//! axes of rotation, `unused` inputs and loads without effect, `identifiable` the number of
-//! identifiable errors, and `laws` the self-checks of the closed form against the exact chain.
+//! leave free, `modes` other ways in which they close, `angles` suspicious angles, `axes`
+//! unexpected axes of rotation, `unused` inputs and loads without effect, `identifiable` the number
+//! of identifiable errors, and `laws` the self-checks of the closed form against the exact chain.
 
 mod angles;
 mod axes;
