@@ -64,7 +64,7 @@ impl Bound {
         if self.least {
             machine.require_chain(
                 "no dexterity or stiffness is bounded",
-                "use `abbe bound` without `--least`, or `abbe check`, which names dead points",
+                "use `abbe bound` for the errors alone, or `abbe check`, which names dead points",
             )?;
         }
         let domain = Domain::new(machine, study)?;
