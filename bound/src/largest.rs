@@ -71,7 +71,7 @@ pub fn largest(
     };
     let value = Tape::new(graph, values, &symbols, still);
     let mut slopes = Tape::new(graph, &all, &symbols, still);
-    slopes.sides_jump = value.has_sides();
+    slopes.slopes_jump = value.has_jumping_slopes();
     let start = active.iter().zip(&domain).map(|(name, [low, high])| name.start.clamp(*low, *high)).collect();
     let parts: Vec<Node> = std::iter::once(node).chain(magnitude.parts.iter().copied()).collect();
     let parts = Tape::new(graph, &parts, &symbols, still);

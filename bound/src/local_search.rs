@@ -63,7 +63,9 @@ pub(crate) fn ascend<const N: usize>(problem: &Problem, mut best: Point) -> Poin
     for _ in 0..STEPS {
         let halves: Vec<f64> = widths.iter().map(|width| 1e-6 * width).collect();
         let slopes = problem.slopes_near(&mut buffers, &best.at, &halves);
-        let second = |i: usize, j: usize| slopes[i].slopes.get(j).map_or(0.0, |a| a / halves[j]);
+        // A name that stands still has no width.
+        let per_unit = |a: &f64, half: f64| if half > 0.0 { a / half } else { 0.0 };
+        let second = |i: usize, j: usize| slopes[i].slopes.get(j).map_or(0.0, |a| per_unit(a, halves[j]));
         let mut step = vec![0.0; widths.len()];
         for _ in 0..8 {
             for i in 0..step.len() {

@@ -106,7 +106,8 @@ impl Search {
             }
             let most = waiting.peek().map_or(f64::NEG_INFINITY, |waiting: &Waiting| waiting.search_box.most);
             let (found, certified) = (self.size(best.value), self.certified(most.max(left).max(best.value)));
-            if certified <= (found + (self.effort.gap * found).max(nothing)).max(self.effort.nothing) {
+            let enough = (found + (self.effort.gap * found).max(nothing)).max(self.effort.nothing);
+            if certified <= enough {
                 break true;
             }
             if boxes >= most_boxes || !watch(&Progress { found, certified, boxes }) {
@@ -127,7 +128,7 @@ impl Search {
             }
             if open.is_empty() {
                 let certified = self.certified(left.max(best.value));
-                break certified <= found + (self.effort.gap * found).max(nothing);
+                break certified <= enough;
             }
         };
         let top = waiting.peek().map(|waiting| &waiting.search_box);

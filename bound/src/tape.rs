@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use abbe_codegen::graph::{Graph, Node, Op};
-use abbe_spec::expr::{Function, Lookup, Symbol, Table};
+use abbe_spec::expr::{Extrapolation, Function, Interpolation, Lookup, Symbol, Table};
 
 use crate::affine::Affine;
 
@@ -36,10 +36,10 @@ pub(crate) enum Step {
 pub(crate) struct Tape {
     pub(crate) steps: Vec<Step>,
     pub(crate) outputs: Vec<Register>,
-    tables: Vec<Arc<Table>>,
-    /// `true` if the derivative of an absolute value, which jumps, is part of a value and not only
-    /// of its slopes.
-    pub(crate) sides_jump: bool,
+    pub(crate) tables: Vec<Arc<Table>>,
+    /// `true` if derivatives that jump, of absolute values and of tables with corners, are part of
+    /// a value and not only of its slopes.
+    pub(crate) slopes_jump: bool,
 }
 
 /// Value of a node while the tape is built.
@@ -78,7 +78,7 @@ impl Tape {
             steps: Vec::new(),
             outputs: Vec::new(),
             tables: graph.tables().to_vec(),
-            sides_jump: false,
+            slopes_jump: false,
         };
         let mut draft = Draft { tape, registers: names.len(), turns: HashMap::new() };
         let mut values: Vec<Value> = Vec::with_capacity(count);
@@ -97,9 +97,24 @@ impl Tape {
         draft.tape
     }
 
-    /// Returns `true` if the tape contains derivatives of absolute values.
-    pub(crate) fn has_sides(&self) -> bool {
-        self.steps.iter().any(|step| matches!(step, Step::Call(Function::Side, _)))
+    /// Returns `true` if the tape contains derivatives that jump.
+    pub(crate) fn has_jumping_slopes(&self) -> bool {
+        self.steps.iter().any(|step| self.is_jumping_slope(step))
+    }
+
+    /// Returns `true` for the derivative of an absolute value, or of a table with corners: of first
+    /// order unless it is cubic and ends, of higher order always.
+    fn is_jumping_slope(&self, step: &Step) -> bool {
+        match *step {
+            Step::Call(function, _) => function == Function::Side,
+            Step::Lookup(Lookup { table, order }, _) => {
+                let table = &self.tables[usize::from(table)];
+                let is_smooth =
+                    table.interpolation == Interpolation::Cubic && table.outside != Extrapolation::Hold;
+                order > 1 || order == 1 && !is_smooth
+            }
+            _ => false,
+        }
     }
 
     /// Returns the enclosures of the outputs while each name is within its half width of its
@@ -147,8 +162,7 @@ impl Tape {
                 }
                 Step::Call(function, a) => {
                     let (form, may_jump) = at(a).call(function);
-                    let is_side = function == Function::Side && form.rest > 0.0;
-                    jumps |= may_jump || (is_side && self.sides_jump);
+                    jumps |= may_jump;
                     form
                 }
                 Step::Lookup(Lookup { table, order }, a) => {
@@ -160,6 +174,7 @@ impl Tape {
                     cosine
                 }
             };
+            jumps |= self.slopes_jump && form.rest > 0.0 && self.is_jumping_slope(step);
             registers.push(form);
         }
         (self.outputs.iter().map(|output| registers[*output]).collect(), jumps)

@@ -98,7 +98,7 @@ impl Unknowns {
                 slopes: is_first.then(|| Tape::new(graph, &slopes, &all, &fixed)),
                 first,
                 sets: sets.len(),
-                residual: Tape::new(graph, &residual, &all, &fixed),
+                residual: Tape { slopes_jump: true, ..Tape::new(graph, &residual, &all, &fixed) },
                 columns: Tape::new(graph, &implicit.columns.concat(), &all, &fixed),
                 home: implicit.home.clone(),
             }
@@ -245,6 +245,10 @@ impl Stage {
             let is_inside =
                 |((next, excess), radius): ((&f64, &Affine<N>), &f64)| above(*next + upper(excess)) < *radius;
             if next.iter().zip(&excess).zip(&radii).all(is_inside) {
+                // A residual that jumps has no mean value form, and perhaps no solution.
+                if self.residual.evaluate_at(registers, inputs).1 {
+                    return None;
+                }
                 let forms = first.iter().zip(&excess).zip(&next).map(|((form, excess), next)| {
                     let form = form.sub(excess);
                     Affine { rest: above(form.rest + next), ..form }

@@ -233,17 +233,16 @@ fn least(rows: &[(&str, &LowerBound, f64)]) -> Table {
 
 /// States the bound of the first-order remainder; none without repeatable sources.
 fn first_order_remainder(report: &Report) -> Option<String> {
+    let is_chain = report.spec.is_serial();
     let Some(certified) = report.remainder.as_ref()?.certified else {
-        return Some(
-            "The difference between the exact chain and first order could not be bounded.".to_owned(),
-        );
+        let exact = if is_chain { "chain" } else { "machine" };
+        return Some(format!(
+            "The difference between the exact {exact} and first order could not be bounded."
+        ));
     };
     // Two digits: it is no closer than that.
     let decimals = number::decimals(certified, 2);
-    let exact = match report.spec.is_serial() {
-        true => "chain A_1 E_1 … A_n E_n T",
-        false => "machine",
-    };
+    let exact = if is_chain { "chain A_1 E_1 … A_n E_n T" } else { "machine" };
     Some(format!(
         "Within the box, the tool point of the exact {exact} differs from first order by no more than {} {} \
          (repeatable sources).",

@@ -352,11 +352,12 @@ impl Report {
                  may be smaller",
             );
         }
-        let open = self.total.all().into_iter().find_map(|largest| largest.unbounded.as_ref());
+        let unknown = self.total.all().into_iter().filter(|largest| largest.certified.is_none());
+        let open = unknown.filter_map(|largest| largest.unbounded.as_ref()).next();
         if let Some(place) = open.filter(|_| !self.spec.loops.is_empty()) {
             notes.warn(&format!(
-                "within the box a loop may open or reach a dead point, where nothing bounds the errors: \
-                 near {}",
+                "near {} a loop may open or reach a dead point, where nothing bounds the errors; or the boxes \
+                 there are still too large, and {BOXES} and {TIME} allow smaller ones",
                 if place.is_empty() { "home" } else { place }
             ));
         }

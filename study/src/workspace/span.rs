@@ -121,8 +121,7 @@ impl Region {
     /// Returns true if the workspace fills its box: every value of the box is in the workspace, or
     /// between two values of it.
     pub fn is_box(&self, spec: &Spec) -> bool {
-        let is_filled =
-            matches!(self.form, Form::Grid(_) | Form::Samples { .. } | Form::Platform(..) | Form::One(_));
+        let is_filled = matches!(self.form, Form::Grid(_) | Form::Samples { .. } | Form::One(_));
         is_filled && spec.sum_limits.is_empty() && spec.inputs.iter().all(|input| input.levels.is_empty())
     }
 }

@@ -317,6 +317,25 @@ fn tables_that_end_at_the_limits_are_bounded() {
     }
 }
 
+/// An error of a number in a table with corners is its slope there, which jumps: the steepest
+/// piece counts, not that in the middle of a box.
+#[test]
+fn slopes_of_tables_that_jump_are_bounded() {
+    let text = "[manipulator]\nname = \"slide\"\nlength = \"mm\"\n\
+         [parameters]\nshift = \"0 mm\"\n\
+         [tables.profile]\nx = { values = [-10, 100, 150, 810], unit = \"mm\" }\n\
+         y = { values = [1, 3, -7, 2], unit = \"um\" }\ninterpolation = \"linear\"\n\
+         [[frame]]\nname = \"slide\"\ntransform = \"Tx(q) Tz(profile(q + shift))\"\n\
+         variable = { name = \"q\", kind = \"prismatic\", limits = [\"0 mm\", \"800 mm\"] }\n\
+         [[source]]\nname = \"shift\"\nclass = \"repeatable\"\nparameter = \"shift\"\nerror = \"0.1 mm\"\n";
+    let spec = Spec::parse("slide.toml", text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let mut magnitudes = Magnitudes::new(&spec, &[]);
+    let norm = magnitudes.repeatable[0].clone();
+    let bound = bounded(&spec, &mut magnitudes, &norm, &moving(&spec), &Effort::default());
+    let steepest = 0.1 * 0.01 / 50.0;
+    assert!(bound.certified >= steepest && bound.certified <= 1.02 * steepest, "{steepest} {bound:?}");
+}
+
 /// Checks nine joints, which are too many for boxes: the bound comes from the parts, and is less
 /// than two and a half times the largest error found.
 #[test]
