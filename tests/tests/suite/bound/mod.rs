@@ -318,13 +318,13 @@ fn tables_that_end_at_the_limits_are_bounded() {
 }
 
 /// An error of a number in a table with corners is its slope there, which jumps: the steepest
-/// piece counts, not that in the middle of a box.
+/// piece counts, although it is 0.05 mm of 800 mm and no sample meets it.
 #[test]
 fn slopes_of_tables_that_jump_are_bounded() {
     let text = "[manipulator]\nname = \"slide\"\nlength = \"mm\"\n\
          [parameters]\nshift = \"0 mm\"\n\
-         [tables.profile]\nx = { values = [-10, 100, 150, 810], unit = \"mm\" }\n\
-         y = { values = [1, 3, -7, 2], unit = \"um\" }\ninterpolation = \"linear\"\n\
+         [tables.profile]\nx = { values = [-10, 503.37, 503.42, 810], unit = \"mm\" }\n\
+         y = { values = [1, 3, -7, -5], unit = \"um\" }\ninterpolation = \"linear\"\n\
          [[frame]]\nname = \"slide\"\ntransform = \"Tx(q) Tz(profile(q + shift))\"\n\
          variable = { name = \"q\", kind = \"prismatic\", limits = [\"0 mm\", \"800 mm\"] }\n\
          [[source]]\nname = \"shift\"\nclass = \"repeatable\"\nparameter = \"shift\"\nerror = \"0.1 mm\"\n";
@@ -332,7 +332,7 @@ fn slopes_of_tables_that_jump_are_bounded() {
     let mut magnitudes = Magnitudes::new(&spec, &[]);
     let norm = magnitudes.repeatable[0].clone();
     let bound = bounded(&spec, &mut magnitudes, &norm, &moving(&spec), &Effort::default());
-    let steepest = 0.1 * 0.01 / 50.0;
+    let steepest = 0.1 * 0.01 / 0.05;
     assert!(bound.certified >= steepest && bound.certified <= 1.02 * steepest, "{steepest} {bound:?}");
 }
 
