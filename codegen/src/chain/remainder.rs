@@ -33,8 +33,9 @@ pub struct Remainder {
 
 impl Remainder {
     /// Builds the remainder of a checked spec, as a function of the joint variables, or of the
-    /// passive ones that are `given`.
-    pub fn new(spec: &Spec, given: &[usize]) -> Self {
+    /// passive ones that are `given`. Returns `None` if p(t) may have kinks, which its derivatives
+    /// do not show.
+    pub fn new(spec: &Spec, given: &[usize]) -> Option<Self> {
         let (mut graph, _, causes) = sources::effects_and_causes(spec);
         let g = &mut graph;
         let share = Symbol::Magnitude(0);
@@ -44,14 +45,17 @@ impl Remainder {
                 let [t, zero] = [g.symbol(share), g.zero()];
                 let magnitudes = of_repeatable(spec, t, zero);
                 let point = RealChain::new(g, spec, &causes, magnitudes).tool_point_from_first_error(g);
+                if point.iter().any(|node| g.may_have_kinks(*node, |symbol| symbol == share)) {
+                    return None;
+                }
                 let speed = g.diff_all(&point, share);
                 let curvature = g.diff_all(&speed, share);
                 (<[_; 3]>::try_from(curvature).expect("three parts"), Vec::new())
             }
-            false => curvature(g, spec, &causes, share, given),
+            false => curvature(g, spec, &causes, share, given)?,
         };
         let half_curvature = g.scale(half, curvature);
         let magnitude = Magnitude::length(g, half_curvature);
-        Self { graph, magnitude, share, implicit }
+        Some(Self { graph, magnitude, share, implicit })
     }
 }

@@ -22,8 +22,10 @@ impl Domain {
         if !Classes::enabled(&self.spec).repeatable {
             return None;
         }
-        let chain::Remainder { mut graph, magnitude, implicit, share } =
-            chain::Remainder::new(&self.spec, &self.given);
+        let Some(remainder) = chain::Remainder::new(&self.spec, &self.given) else {
+            return Some(Remainder { certified: None, boxes: 0 });
+        };
+        let chain::Remainder { mut graph, magnitude, implicit, share } = remainder;
         let bound = self.largest_on_curve(&mut graph, &magnitude, &implicit, share, requested, watch);
         Some(Remainder::new(&bound))
     }

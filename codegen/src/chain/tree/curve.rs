@@ -24,14 +24,14 @@ use crate::graph::{Graph, Node, Vector};
 const ALONG: Symbol = Symbol::Magnitude(1);
 
 /// Returns `p″(t)` of the tool point with the share t of the repeatable errors, and what defines
-/// the symbols that it reads.
+/// the symbols that it reads; `None` if the equations or the point may have kinks.
 pub(crate) fn curvature(
     graph: &mut Graph,
     spec: &Spec,
     causes: &Causes,
     share: Symbol,
     given: &[usize],
-) -> (Vector, Vec<Implicit>) {
+) -> Option<(Vector, Vec<Implicit>)> {
     let count = spec.passive.len();
     let (_, mut implicit, home) = Parts::implicit(graph, spec, given);
     implicit.truncate(1);
@@ -60,6 +60,9 @@ pub(crate) fn curvature(
         _ => None,
     };
     let moved = graph.substitute(&nodes, other);
+    if moved.iter().any(|node| graph.may_have_kinks(*node, |symbol| symbol == ALONG)) {
+        return None;
+    }
     let once = graph.diff_all(&moved, ALONG);
     let twice = graph.diff_all(&once, ALONG);
     let still = graph.substitute(&[moved, once, twice].concat(), |symbol| (symbol == ALONG).then_some(zero));
@@ -73,5 +76,5 @@ pub(crate) fn curvature(
             implicit.push(Implicit { sets, columns: columns.clone(), home });
         }
     }
-    (std::array::from_fn(|axis| twice[count + axis]), implicit)
+    Some((std::array::from_fn(|axis| twice[count + axis]), implicit))
 }

@@ -11,7 +11,11 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{given, home, moving, part, place, robot, robots};
 
 pub(super) fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Bound {
-    let Remainder { mut graph, magnitude, share, implicit } = Remainder::new(spec, &[]);
+    let Some(remainder) = Remainder::new(spec, &[]) else {
+        let (at, certified) = (Vec::new(), f64::INFINITY);
+        return Bound { found: 0.0, certified, at, boxes: 0, complete: false, unbounded: None };
+    };
+    let Remainder { mut graph, magnitude, share, implicit } = remainder;
     let share = Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 };
     let moving = [box_, &[share]].concat();
     largest(&mut graph, &magnitude, &implicit, &moving, &|symbol| home(symbol, spec), effort, &mut |_| true)
@@ -102,4 +106,21 @@ fn of_translations_nothing_is_left_out() {
                 [[source]]\nname = \"scale\"\nclass = \"repeatable\"\nframe = \"slide\"\ne_x = \"1e-4 * x\"\ne_y = \"0.1\"\n";
     let spec = Spec::parse("slide.toml", text).unwrap();
     assert_eq!(bounded(&spec, &moving(&spec), &Effort::default()).certified, 0.0);
+}
+
+/// A number with an error that may cross a corner of the transform has no second derivative there:
+/// the remainder, as large as the change of the slope times the error, is not bounded.
+#[test]
+fn nothing_is_certified_across_a_corner() {
+    for (height, is_known) in [("0.1 * abs(q + shift)", false), ("0.1 * (q + shift)", true)] {
+        let text = format!(
+            "[manipulator]\nname = \"slide\"\nlength = \"mm\"\n[parameters]\nshift = \"0 mm\"\n\
+             [[frame]]\nname = \"slide\"\ntransform = \"Tx(q) Tz({height})\"\n\
+             variable = {{ name = \"q\", kind = \"prismatic\", limits = [\"-9 mm\", \"9 mm\"] }}\n\
+             [[source]]\nname = \"shift\"\nclass = \"repeatable\"\nparameter = \"shift\"\nerror = \"0.1 mm\"\n"
+        );
+        let spec = Spec::parse("slide.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let bound = bounded(&spec, &moving(&spec), &Effort::default());
+        assert_eq!(bound.certified.is_finite(), is_known, "{height}: {bound:?}");
+    }
 }
