@@ -332,7 +332,8 @@ fn slopes_of_tables_that_jump_are_bounded() {
     let mut magnitudes = Magnitudes::new(&spec, &[]);
     let norm = magnitudes.repeatable[0].clone();
     let bound = bounded(&spec, &mut magnitudes, &norm, &moving(&spec), &Effort::default());
-    let steepest = 0.1 * 0.01 / 0.05;
+    // As the ends of the piece are rounded.
+    let steepest = 0.1 * 0.01 / (503.42 - 503.37) * (1.0 - 1e-14);
     assert!(bound.certified >= steepest && bound.certified <= 1.02 * steepest, "{steepest} {bound:?}");
 }
 
