@@ -32,7 +32,7 @@ pub(crate) struct Allocate {
     #[arg(long)]
     loosen: bool,
     /// Write the spec with the factors, as `scale` of its sources, to this file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
     common: Common,

@@ -40,7 +40,7 @@ pub(crate) struct Compensate {
     #[arg(long, value_name = "LENGTH", default_value = TOLERANCE, allow_hyphen_values = true)]
     tolerance: String,
     /// Write the corrected commands and their remaining errors to this CSV file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
     page: Page,

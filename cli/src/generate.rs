@@ -47,7 +47,7 @@ pub(crate) struct Generate {
     fmi: Option<Fmi>,
     /// Write to this file instead of stdout; C, which has a header and a source, writes into this
     /// folder
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, short, value_name = "PATH")]
     out: Option<PathBuf>,
     #[command(flatten)]
     writing: Writing,

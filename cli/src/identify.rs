@@ -64,7 +64,7 @@ pub(crate) struct Identify {
     folds: usize,
     /// Write the spec with the identified errors as repeatable sources to this file, and beside it,
     /// as FILE.map.toml, the map with the identified station and targets
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
     showing: Showing,

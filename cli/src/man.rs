@@ -15,7 +15,7 @@ use crate::output::{Outcome, Outputs, cannot_write, note};
 "))]
 pub(crate) struct Man {
     /// Write the manual pages into this folder: abbe.1 and one page per command
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
     writing: Writing,

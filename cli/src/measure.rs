@@ -35,7 +35,7 @@ pub(crate) struct Measure {
     accept: Option<String>,
     /// Write report.html, and errors.csv with ΔX, prediction and residual of every row, into this
     /// folder
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
     dated: Dated,

@@ -29,7 +29,7 @@ pub(crate) struct Merge {
     check: bool,
     /// Write the files of `abbe analyze --out` into this folder, except configurations.csv: parts
     /// do not store single configurations
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
     dated: Dated,

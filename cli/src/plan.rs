@@ -51,7 +51,7 @@ pub(crate) struct Plan {
     #[arg(long, value_name = "FILE")]
     study: Option<PathBuf>,
     /// Write the chosen configurations to this CSV file, with empty columns for the measurements
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
     common: Common,

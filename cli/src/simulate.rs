@@ -45,7 +45,7 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
     /// Write to this file instead of stdout
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
     writing: Writing,

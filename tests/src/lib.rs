@@ -12,6 +12,7 @@ pub mod languages;
 pub mod mechanisms;
 pub mod mutants;
 pub mod needs;
+pub mod platforms;
 pub mod processes;
 pub mod structured_text;
 mod thorough;

@@ -1,4 +1,4 @@
-//! All solutions of inverse kinematics: in closed form where the structure of the chain permits,
+//! All solutions of inverse kinematics: in closed form where the structure permits,
 //! otherwise by many searches.
 
 use core::f64::consts::{PI, TAU};
@@ -24,10 +24,11 @@ const STEPS: usize = 4;
 
 /// Inverse kinematics of a manipulator with all of its solutions.
 ///
-/// Arms whose axes intersect or are parallel where the arms of industry have them so, and gantries,
-/// have a closed form as a function of their own ([`Manipulator::inverse`]). Of all others the
-/// solutions are those of many searches. Every solution is verified, and where needed improved, by
-/// the manipulator itself. Errors of a calibration, which tilt and shift axes, leave no closed
+/// Arms whose axes intersect or are parallel where the arms of industry have them so, gantries, and
+/// platforms on legs have a closed form as a function of their own ([`Manipulator::inverse`]). Of
+/// all others the solutions are those of many searches. Every solution is verified, and where
+/// needed improved, by the manipulator itself: the loops of a platform close there in the assembly
+/// mode of home. Errors of a calibration, which tilt and shift axes, leave no closed
 /// form.
 ///
 /// Lengths are in the manipulator's unit, angles in rad; poses are those of the tool point in

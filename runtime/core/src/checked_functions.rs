@@ -7,29 +7,29 @@
 /// [`Manipulator`](crate::Manipulator) by its raw functions.
 ///
 /// A manipulator with loops is followed by the word `loops`, one with inverse kinematics in closed
-/// form by `inverse`. Generated code invokes it where
+/// form by `inverse`, one with both by `loops inverse`. Generated code invokes it where
 /// `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`, `EFFECTS`, `SOURCES`, `DESCRIPTION`,
 /// `Parameters`, `Inputs` and `raw` are defined. The types of arrays fix their sizes. Numbers that
 /// are not finite, inputs outside their range and Euler singularities are [`Error`](crate::Error)s.
 #[macro_export]
 macro_rules! checked_functions {
-    ($(#[$documentation:meta])* $name:ident $($with:ident)?) => {
+    ($(#[$documentation:meta])* $name:ident $($with:ident)*) => {
         $(#[$documentation])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct $name;
 
         $crate::for_each_function!($crate::checked_function);
 
-        $crate::checked_functions!(@outside $($with)?);
+        $($crate::checked_functions!(@outside $with);)*
 
         /// Functions that fill arrays and check the results.
         mod checked {
             use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES, raw};
             $crate::for_each_function!($crate::checked_arrays, of_all);
-            $crate::checked_functions!(@inside $($with)?);
+            $($crate::checked_functions!(@inside $with);)*
         }
 
-        $crate::checked_functions!(@lanes $name $($with)?);
+        $($crate::checked_functions!(@lanes $name $with);)*
 
         /// Returns the first cycle of a controller. In each later one,
         /// [`last`](::abbe::compensator::Cycle::last) is the correction that the one before
@@ -97,28 +97,26 @@ macro_rules! checked_functions {
                     $crate::Function::Passive
                     | $crate::Function::DisplacedPose
                     | $crate::Function::LegForces => {
-                        $crate::checked_functions!(@of_loops $($with)?: function, arguments, results)
+                        $crate::checked_functions!(@of_loops $($with)*: function, arguments, results)
                     }
                     $crate::Function::Inverse => {
-                        $crate::checked_functions!(@of_inverse $($with)?: function, arguments, results)
+                        $crate::checked_functions!(@of_inverse $($with)*: function, arguments, results)
                     }
                     _ => checked::of_all(function, arguments, results),
                 }
             }
         }
     };
-    (@outside) => {};
     (@outside loops) => {
         $crate::for_each_function_of_loops!($crate::checked_function);
     };
     (@outside inverse) => {
         $crate::for_each_function_of_inverse!($crate::checked_function);
     };
-    (@lanes $name:ident $(loops)?) => {};
+    (@lanes $name:ident loops) => {};
     (@lanes $name:ident inverse) => {
         $crate::for_each_function_of_inverse!($crate::evaluate_functions, $name);
     };
-    (@inside) => {};
     (@inside loops) => {
         use super::PASSIVE;
         $crate::for_each_function_of_loops!($crate::checked_arrays, of_loops);
@@ -127,13 +125,13 @@ macro_rules! checked_functions {
         use super::SOLUTIONS;
         $crate::for_each_function_of_inverse!($crate::checked_arrays, of_inverse);
     };
-    (@of_loops loops: $($arguments:ident),+) => {
+    (@of_loops loops $(inverse)?: $($arguments:ident),+) => {
         checked::of_loops($($arguments),+)
     };
-    (@of_inverse inverse: $($arguments:ident),+) => {
+    (@of_inverse $(loops)? inverse: $($arguments:ident),+) => {
         checked::of_inverse($($arguments),+)
     };
-    (@$list:ident $($with:ident)?: $function:ident, $($arguments:ident),+) => {
+    (@$list:ident $($with:ident)*: $function:ident, $($arguments:ident),+) => {
         Err($crate::Error::NoFunction($function))
     };
 }

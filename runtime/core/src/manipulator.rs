@@ -140,8 +140,9 @@ pub trait Manipulator: Sync {
     /// `solutions` per solution, in the turns nearest to `q` that the limits permit.
     ///
     /// Where `found` is 0, the row is no solution. A joint that is free to move there stays as in
-    /// `q`; within 10⁻⁹ rad of such a pose, but not at it, a solution may be missing. A manipulator
-    /// without a closed form has no solutions in its description.
+    /// `q`; within 10⁻⁹ rad of such a pose, but not at it, a solution may be missing. With loops, a
+    /// row has the joint variables at the pose, but `pose` of the row may be that of another
+    /// assembly mode. A manipulator without a closed form has no solutions in its description.
     fn inverse(
         &self,
         q: &[f64],

@@ -24,6 +24,8 @@ use abbe_tests::needs::{Missing, Tests, python, succeeds_in_time, tool};
 use abbe_tests::{is_tested, specs};
 use serde_json::{Value, json};
 
+use crate::random_loops::random_loops;
+
 pub(crate) const TESTS: Tests = &[
     ("javascript", (|| in_all(Language::JavaScript, 1000))),
     ("python", (|| in_all(Language::Python, 1000))),
@@ -47,7 +49,14 @@ fn in_all(language: Language, usual: usize) -> Result<(), Missing> {
     assert_equal(language, &command, Spec::parse("long.toml", &long_chain()).unwrap(), few);
     assert_equal(language, &command, Spec::parse("coupled.toml", coupled_joints()).unwrap(), few);
     assert_equal(language, &command, Spec::read(specs::path("measured")).unwrap(), count);
-    assert_equal(language, &command, Spec::read(specs::path("linkage")).unwrap(), few);
+    for name in ["linkage", "planar"] {
+        assert_equal(language, &command, Spec::read(specs::path(name)).unwrap(), few);
+    }
+    for (spec, given) in random_loops(2) {
+        let (file, robot) = (language.files(&spec).remove(0), Interpreter::new(spec));
+        let worst = compare_source(language, &command, &robot, &file, &given).unwrap();
+        println!("{}: {worst:e}", robot.description().name);
+    }
     assert_open_loops_are_nan(language, &command);
     assert_equal(language, &command, Spec::parse("names.toml", NAMES).unwrap(), few);
     Ok(())

@@ -5,6 +5,7 @@ mod kernels;
 mod languages;
 mod linuxcnc;
 mod measured_data;
+mod random_loops;
 mod ros;
 mod rustfmt;
 mod structured_text;

@@ -27,6 +27,7 @@ fn tree_sitter() -> Result<(), Missing> {
         Spec::parse("names.toml", NAMES).unwrap(),
         Spec::read(specs::path("measured")).unwrap(),
         Spec::read(specs::path("linkage")).unwrap(),
+        Spec::read(specs::path("planar")).unwrap(),
     ];
     for spec in shipped.chain(others) {
         let file = Language::StructuredText.files(&spec).remove(0);

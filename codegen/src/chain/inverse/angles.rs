@@ -9,7 +9,7 @@ const NOTHING: f64 = 1e-15;
 /// kept in spite of them.
 const NO_DIRECTION: f64 = 1e-13;
 /// Share by which a cosine may exceed 1, as a rounding error.
-const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// Sine and cosine of an angle.
 #[derive(Clone, Copy, Debug)]

@@ -52,16 +52,7 @@ impl Lines {
         if !spec.is_serial() || !lower_pairs(spec).into_iter().all(|is_pair| is_pair) {
             return None;
         }
-        let nominal = spec.parameters.iter().map(|parameter| parameter.value);
-        let nominal: Vec<f64> = nominal.collect();
-        let around = |probe: usize| {
-            let change = |i: usize| 0.1 * ((1 + i + 7 * probe) as f64 * 0.618_033_988_749_894_9).fract();
-            let scale = |value: f64| if value == 0.0 { 1.0 } else { value };
-            let other = |(i, value): (usize, &f64)| value + scale(*value) * change(i);
-            if probe == 0 { nominal.clone() } else { nominal.iter().enumerate().map(other).collect() }
-        };
-        let (parameters, values) = (std::array::from_fn(around), RefCell::default());
-        let mut probes = Probes { parameters, values, size: 1.0 };
+        let mut probes = Probes::new(spec);
         let mut lines: Vec<Option<Line>> = vec![None; spec.variables.len()];
         let mut at = g.identity();
         for frame in &spec.frames {
@@ -78,7 +69,7 @@ impl Lines {
         let mut lines: Vec<Line> = lines.into_iter().collect::<Option<_>>()?;
         let places = lines.iter().flat_map(|line| line.at).chain(tool.position);
         let places: Vec<Node> = places.collect();
-        probes.size = probes.largest(g, &places).max(f64::MIN_POSITIVE);
+        probes.measure(g, &places);
         for line in &mut lines {
             line.along = line.along.map(|part| probes.cleaned(g, part, 1.0));
             line.at = line.at.map(|part| probes.cleaned(g, part, probes.size));
@@ -90,7 +81,7 @@ impl Lines {
 }
 
 /// Returns the axis of a factor behind a frame.
-fn line(g: &mut Graph, before: &Frame, factor: &Factor, own: usize, kind: VariableKind) -> Line {
+pub(super) fn line(g: &mut Graph, before: &Frame, factor: &Factor, own: usize, kind: VariableKind) -> Line {
     let symbol = Symbol::Variable(own);
     let (after, step) = apply_with(g, *before, factor, &|g, amount| g.lower(amount));
     let place = if matches!(factor, Factor::Matrix(_)) { after.position } else { before.position };
@@ -105,20 +96,40 @@ fn line(g: &mut Graph, before: &Frame, factor: &Factor, own: usize, kind: Variab
     Line { kind, along: [nodes[0], nodes[1], nodes[2]], at: [nodes[3], nodes[4], nodes[5]] }
 }
 
-fn depends(factor: &Factor, own: usize) -> bool {
+pub(super) fn depends(factor: &Factor, own: usize) -> bool {
     factor.expressions().iter().any(|amount| amount.symbols().any(|symbol| symbol == Symbol::Variable(own)))
 }
 
 /// Extends a pose by a factor with all joints at zero.
-fn at_zero(g: &mut Graph, at: Frame, factor: &Factor) -> Frame {
+pub(super) fn at_zero(g: &mut Graph, at: Frame, factor: &Factor) -> Frame {
     let lower = |g: &mut Graph, amount: &Expression| {
         let (amount, zero) = (g.lower(amount), g.zero());
-        g.substitute(&[amount], |symbol| matches!(symbol, Symbol::Variable(_)).then_some(zero))[0]
+        g.substitute(&[amount], |symbol| {
+            matches!(symbol, Symbol::Variable(_) | Symbol::Local(_)).then_some(zero)
+        })[0]
     };
     apply_with(g, at, factor, &lower).0
 }
 
 impl Probes {
+    /// Returns the parameters of a spec, with a size of 1 until places are measured.
+    pub(super) fn new(spec: &Spec) -> Self {
+        let nominal: Vec<f64> = spec.parameters.iter().map(|parameter| parameter.value).collect();
+        let around = |probe: usize| {
+            let change = |i: usize| 0.1 * ((1 + i + 7 * probe) as f64 * 0.618_033_988_749_894_9).fract();
+            let scale = |value: f64| if value == 0.0 { 1.0 } else { value };
+            let other = |(i, value): (usize, &f64)| value + scale(*value) * change(i);
+            if probe == 0 { nominal.clone() } else { nominal.iter().enumerate().map(other).collect() }
+        };
+        Self { parameters: std::array::from_fn(around), values: RefCell::default(), size: 1.0 }
+    }
+
+    /// Takes the largest coordinate of some places that no joint moves as the size.
+    pub(super) fn measure(&mut self, g: &Graph, places: &[Node]) {
+        let values = self.values(g, places, 0);
+        self.size = values.iter().fold(f64::MIN_POSITIVE, |largest, value| value.abs().max(largest));
+    }
+
     fn values(&self, g: &Graph, nodes: &[Node], probe: usize) -> Vec<f64> {
         let values = &mut self.values.borrow_mut()[probe];
         let count = nodes.iter().map(|node| node.index() + 1).max().unwrap_or(0);
@@ -128,10 +139,6 @@ impl Probes {
             _ => f64::NAN,
         });
         nodes.iter().map(|node| values[node.index()]).collect()
-    }
-
-    fn largest(&self, g: &Graph, nodes: &[Node]) -> f64 {
-        self.values(g, nodes, 0).iter().fold(0.0, |largest, value| value.abs().max(largest))
     }
 
     /// Returns the value of a node that no joint moves, with nominal parameters.

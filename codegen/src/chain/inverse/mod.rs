@@ -1,10 +1,11 @@
 //! Inverse kinematics in closed form, all branches, as nodes.
 //!
-//! | structure of six lower pairs | file |
+//! | structure, of six lower pairs or of loops | file |
 //! |---|---|
 //! | an arm of three joints, then three revolute joints whose axes intersect | `arm`, `wrist` |
 //! | three parallel axes between the first joint and the last two, whose axes intersect | `parallel` |
 //! | three slides and three revolute joints, in any order | `gantry` |
+//! | a platform on legs, each with a drive of its own | `platform` |
 //!
 //! Of the arm two consecutive axes intersect or are parallel; its third joint may be a slide. A
 //! chain that has one of the first two from the tool to the base is solved backwards. `lines` finds
@@ -19,6 +20,7 @@ mod lines;
 mod motion;
 mod parallel;
 mod partial;
+mod platform;
 mod wrist;
 
 use std::f64::consts::PI;
@@ -42,49 +44,55 @@ const AT_LIMIT: f64 = 1e-13;
 /// are wanted.
 #[derive(Clone, Debug)]
 pub(crate) struct Inverse {
-    /// Six joints of each solution, within their limits.
-    pub(crate) solutions: Vec<[Node; 6]>,
+    /// Joints of each solution, within their limits.
+    pub(crate) solutions: Vec<Vec<Node>>,
     /// 1 if the solution exists within the limits, otherwise 0.
     pub(crate) found: Vec<Node>,
 }
 
 impl Inverse {
-    /// Adds the nodes for a checked spec. Returns `None` if the chain has none of the structures
+    /// Adds the nodes for a checked spec. Returns `None` if the machine has none of the structures
     /// with a closed form.
     pub(crate) fn new(graph: &mut Graph, spec: &Spec) -> Option<Self> {
-        if spec.variables.len() != 6 {
-            return None;
-        }
         // Values of nodes in a small graph are found soon.
         let mut apart = Graph::with_tables(&spec.tables);
         let Self { solutions, found } = Self::apart(&mut apart, spec)?;
         let mut nodes = graph.adopt(&apart, &[solutions.concat(), found].concat());
-        let found = nodes.split_off(6 * solutions.len());
-        let solutions = nodes.chunks_exact(6).map(|six| std::array::from_fn(|i| six[i])).collect();
-        Some(Self { solutions, found })
+        let joints = spec.variables.len();
+        let found = nodes.split_off(joints * solutions.len());
+        Some(Self { solutions: nodes.chunks_exact(joints).map(<[_]>::to_vec).collect(), found })
     }
 
     fn apart(g: &mut Graph, spec: &Spec) -> Option<Self> {
-        let lines = Lines::new(g, spec)?;
         let target: Vec<Node> = (0..12).map(|i| g.symbol(Symbol::Target(i))).collect();
         let target = Frame::from_entries(&target);
-        let free: [Angle; 6] = std::array::from_fn(|i| {
+        let start = (0..spec.variables.len()).map(|i| {
             let q = g.symbol(Symbol::Variable(i));
             Angle { sine: g.sin(q), cosine: g.cos(q) }
         });
-        let motion = Motion { target, tool: lines.tool, is_reversed: false };
-        let found = forwards(g, &lines, &motion, free).or_else(|| {
-            let back = Lines { lines: lines.lines.iter().rev().copied().collect(), ..lines.clone() };
-            let motion = Motion { is_reversed: true, ..motion };
-            let mut free = free.map(|angle| angle.signed(g, -1.0));
-            free.reverse();
-            // Of the gantry all orders are forwards.
-            let found = arms(g, &back, &motion, free)?;
-            Some(found.into_iter().map(|partial| backwards(g, partial)).collect())
-        })?;
+        let free: Vec<Angle> = start.collect();
+        let found = match spec.is_serial() {
+            true => chain(g, spec, target, free.as_slice().try_into().ok()?),
+            false => platform::solve(g, spec, target, &free),
+        }?;
         let (solutions, found) = found.into_iter().map(|partial| finished(g, spec, &partial, &free)).unzip();
         Some(Self { solutions, found })
     }
+}
+
+/// Returns the solutions of a chain of six joints.
+fn chain(g: &mut Graph, spec: &Spec, target: Frame, free: [Angle; 6]) -> Option<Vec<Partial>> {
+    let lines = Lines::new(g, spec)?;
+    let motion = Motion { target, tool: lines.tool, is_reversed: false };
+    forwards(g, &lines, &motion, free).or_else(|| {
+        let back = Lines { lines: lines.lines.iter().rev().copied().collect(), ..lines.clone() };
+        let motion = Motion { is_reversed: true, ..motion };
+        let mut free = free.map(|angle| angle.signed(g, -1.0));
+        free.reverse();
+        // Of the gantry all orders are forwards.
+        let found = arms(g, &back, &motion, free)?;
+        Some(found.into_iter().map(|partial| backwards(g, partial)).collect())
+    })
 }
 
 fn forwards(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle; 6]) -> Option<Vec<Partial>> {
@@ -157,7 +165,7 @@ fn value(g: &mut Graph, Angle { sine, cosine }: Angle) -> Node {
 
 /// Returns the joints of a solution in the turns nearest to the start that the limits permit, and
 /// whether it exists.
-fn finished(g: &mut Graph, spec: &Spec, partial: &Partial, free: &[Angle; 6]) -> ([Node; 6], Node) {
+fn finished(g: &mut Graph, spec: &Spec, partial: &Partial, free: &[Angle]) -> (Vec<Node>, Node) {
     let mut margins = partial.exists.clone();
     let mut within = |g: &mut Graph, value: Node, variable: &Variable| {
         let [lower, upper] = variable.limits;
@@ -187,8 +195,8 @@ fn finished(g: &mut Graph, spec: &Spec, partial: &Partial, free: &[Angle; 6]) ->
         }
         value
     };
-    let solution = std::array::from_fn(|i| {
-        let value = match partial.joints[i] {
+    let joints = partial.joints.iter().enumerate().map(|(i, joint)| {
+        let value = match *joint {
             Joint::Turn(Root { angle, .. }) => {
                 let start = g.symbol(Symbol::Variable(i));
                 let back = free[i].signed(g, -1.0);
@@ -200,6 +208,7 @@ fn finished(g: &mut Graph, spec: &Spec, partial: &Partial, free: &[Angle; 6]) ->
         };
         within(g, value, &spec.variables[i])
     });
+    let solution = joints.collect();
     margins.extend(partial.joints.iter().filter_map(|joint| match joint {
         Joint::Turn(root) => Some(root.exists),
         Joint::Slide(_) => None,

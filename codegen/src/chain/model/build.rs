@@ -9,6 +9,7 @@ use super::names::{name, name_lengths};
 use super::{Jacobian, Model};
 use crate::chain::by_source;
 use crate::chain::elastic::Loads;
+use crate::chain::inverse::Inverse;
 use crate::chain::kinematics::{Kinematics, symbols};
 use crate::chain::rows::Rows;
 use crate::chain::sources::{self, Causes};
@@ -26,7 +27,8 @@ impl Model {
         } else {
             let parts = Parts::new(&mut graph, spec);
             Self::from_kinematics(graph, spec, parts, |parts, g, spec, causes, [errors, _]| {
-                Machine::of_loops(ClosedLoops::new(g, spec, &parts, causes, errors))
+                let loops = ClosedLoops::new(g, spec, &parts, causes, errors);
+                Machine::of_loops(loops, Inverse::new(g, spec))
             })
         }
     }

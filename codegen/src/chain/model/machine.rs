@@ -18,14 +18,14 @@ pub(super) struct Machine {
 }
 
 impl Machine {
-    pub(super) fn of_loops(loops: ClosedLoops) -> Self {
+    pub(super) fn of_loops(loops: ClosedLoops, inverse: Option<Inverse>) -> Self {
         Self {
             real_pose: loops.real.pose,
             drawn_pose: loops.drawn.pose,
             real_errors: None,
             drawn_errors: Vec::new(),
             local_twists: [Vec::new(), Vec::new()],
-            inverse: None,
+            inverse,
             loops: Some(loops),
         }
     }

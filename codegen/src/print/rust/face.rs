@@ -256,12 +256,9 @@ pub(super) fn checked(writer: &mut Writer, spec: &Spec, model: &Model) {
     writer.open("::abbe::checked_functions!");
     let title = escaped(spec.title.trim_end_matches('.'));
     writer.documentation(&format!("{title}, as a [`Manipulator`](::abbe::Manipulator)."));
-    let with = match (spec.passive.is_empty(), model.solutions()) {
-        (false, _) => " loops",
-        (true, 0) => "",
-        (true, _) => " inverse",
-    };
-    writer.lines(&format!("{}{with}", type_name(&spec.name)));
+    let loops = if spec.passive.is_empty() { "" } else { " loops" };
+    let inverse = if model.solutions() > 0 { " inverse" } else { "" };
+    writer.lines(&format!("{}{loops}{inverse}", type_name(&spec.name)));
     writer.close("}");
     writer.blank();
 }

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use crate::random_loops::random_loops;
 use abbe::function::COMPENSATED;
 use abbe::{Function, Manipulator, Orientation};
 use abbe_codegen::print::{Language, Real};
@@ -70,6 +71,10 @@ fn long_chains() -> Result<(), Missing> {
 
 fn loops() -> Result<(), Missing> {
     tool("cc", "")?;
+    assert_equal(Spec::read(specs::path("planar")).unwrap(), 1000);
+    for (spec, given) in random_loops(1) {
+        assert_equal_at(spec, &given);
+    }
     let spec = Spec::read(specs::path("linkage")).unwrap();
     assert_equal(spec.clone(), 1000);
     // What does not close has the status `LINKAGE_NOT_CLOSED`.
@@ -207,13 +212,18 @@ fn departures_from_misra_are_listed() -> Result<(), Missing> {
 /// Compares `count` configurations with Rust bit by bit, compensated commands to 1e-9, and runs the
 /// self-test.
 fn assert_equal(spec: Spec, count: usize) {
+    let given = configurations(&Interpreter::new(spec.clone()), count);
+    assert_equal_at(spec, &given);
+}
+
+/// Compares given configurations; see [`assert_equal`].
+fn assert_equal_at(spec: Spec, given: &[Vec<f64>]) {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), &spec, Real::Double);
     let robot = Interpreter::new(spec);
-    let given = configurations(&robot, count);
-    let found = called(&["cc"], folder.path(), &robot, Real::Double, &given);
+    let found = called(&["cc"], folder.path(), &robot, Real::Double, given);
     assert_eq!(found[0], 0.0, "{}: the self-test", robot.description().name);
-    compare(&robot, &given, &found[1..]).unwrap();
+    compare(&robot, given, &found[1..]).unwrap();
 }
 
 /// Compares the numbers of every function and of compensated commands at every configuration, each

@@ -10,6 +10,7 @@ use abbe_tests::specs;
 
 mod closed;
 mod closed_forms;
+mod inverse;
 mod modes;
 mod random;
 mod statics;
@@ -123,6 +124,8 @@ fn errors_of_balls_in_grooves_obey_the_laws() {
 
 abbe_macro::manipulator!("specs/linkage.toml");
 abbe::test_manipulator!(generated_linkage: linkage::Linkage);
+abbe_macro::manipulator!("specs/planar.toml");
+abbe::test_manipulator!(generated_planar: planar::Planar);
 
 /// Generated code finds the passive variables that the interpreter finds, and refuses what does not
 /// close.
