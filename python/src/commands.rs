@@ -106,8 +106,8 @@ impl Machine {
     /// `target`, `q0`: as for `inverse`, but `target` is a pose. Revolute joints have the full turn
     /// nearest to `q0`, and joints that are free to move there stay as in `q0`. Arms with a
     /// spherical wrist, of whose other axes two neighbours intersect or are parallel, arms with
-    /// three parallel axes, gantries with three revolute joints, and platforms on legs are solved in
-    /// closed form; of others, solutions may be missing. Raises ValueError, with the reason, if
+    /// three parallel axes, gantries with three revolute joints, and platforms on legs are solved
+    /// in closed form; of others, solutions may be missing. Raises ValueError, with the reason, if
     /// there is none.
     ///
     /// >>> import abbe

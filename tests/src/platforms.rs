@@ -5,7 +5,7 @@ use std::fmt::Write;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Passive joints of a platform, in an order that a seed shuffles, and the directions that it keeps.
+/// Passive joints of a platform, and the directions that it keeps.
 pub struct Body {
     /// Passive joints, in the order of a seed.
     pub passive: &'static [&'static str],

@@ -71,7 +71,7 @@ pub(crate) struct Analyze {
     /// Write report.html, its figures as SVG, configurations.csv, sources.csv, unreachable.csv and,
     /// with --monte-carlo, monte_carlo.csv into this folder. With --shard: write the part to this
     /// file
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, short, value_name = "PATH")]
     out: Option<PathBuf>,
     /// Sweep part I of N of the workspace (I from 1 to N) and write a part file for `abbe merge`
     #[arg(long, value_name = "I/N", requires = "out", conflicts_with_all = ["json", "check", "date"])]
