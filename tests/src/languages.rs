@@ -145,7 +145,7 @@ pub fn arguments(robot: &dyn Manipulator, signature: &Signature, given: &[f64]) 
     taken
 }
 
-/// Compares the results of functions in another language with those in Rust, to 1e-13 of the
+/// Compares the results of functions in another language with those in Rust, to a share of the
 /// largest number of a result, and compensated commands to 1e-9. `found` has the results of every
 /// function for the first configuration, then for the next. Returns the largest difference, without
 /// compensated commands.
@@ -158,6 +158,7 @@ pub fn compare(
     evaluate: impl Fn(Function, &[f64]) -> Vec<f64>,
     given: &[Vec<f64>],
     found: &[f64],
+    share: f64,
 ) -> Result<f64, String> {
     let mut found = found;
     let mut worst: f64 = 0.0;
@@ -174,7 +175,7 @@ pub fn compare(
                 let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
                 for (a, b) in results.iter().zip(expected) {
                     let difference = (a - b).abs();
-                    let is_close = difference <= 1e-13 * largest;
+                    let is_close = difference <= share * largest;
                     is_close.then_some(()).ok_or_else(|| format!("{}: {a} and {b}", function.name()))?;
                     worst = worst.max(if difference > 0.0 { difference / largest } else { 0.0 });
                 }

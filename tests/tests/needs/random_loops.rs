@@ -4,7 +4,7 @@ use abbe::analysis::sampling::{self, arm_length, halton, nominal_parameters};
 use abbe::{Function, Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
-use abbe_tests::languages::{arguments, configurations};
+use abbe_tests::languages::{arguments, configurations, given_arrays};
 use abbe_tests::mechanisms::Mechanism;
 use abbe_tests::platforms::{BODIES, platform};
 use abbe_tests::thorough;
@@ -20,13 +20,22 @@ pub(crate) fn random_loops(few: usize) -> impl Iterator<Item = (Spec, Vec<Vec<f6
         let spec = Spec::parse("machine.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let robot = Interpreter::new(spec.clone());
         let (description, home) = (robot.description(), sampling::home(robot.description()));
-        let mut given = configurations(&robot, 40);
         let scale = arm_length(&robot, &nominal_parameters(description)).ok()?;
+        let mut given = configurations(&robot, 40);
         for (index, given) in given.iter_mut().enumerate() {
             for (j, (home, variable)) in home.iter().zip(&*description.variables).enumerate() {
                 let unit = if variable.kind == VariableKind::Revolute { 1.0 } else { scale };
                 given[j] = home + 0.05 * unit * (2.0 * halton(index + 1, j) - 1.0);
             }
+        }
+        // Corrections stay near, where the loops close as well.
+        let mut first = 0;
+        for array in given_arrays() {
+            let range = first..first + array.len(description);
+            if ["change", "largest"].contains(&array.name) {
+                given.iter_mut().for_each(|given| given[range.clone()].fill(1e-3));
+            }
+            first = range.end;
         }
         let mut columns = vec![[0.0; 6]; home.len()];
         robot.joint_jacobian(&home, &nominal_parameters(description), &mut columns).ok()?;
