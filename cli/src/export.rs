@@ -21,6 +21,7 @@ use crate::output::{Outcome, Outputs, Pending};
   abbe export machine3 --to isg-csv --set temperature_rise=3K -o volcomp.csv
   abbe export machine3 --to linuxcnc --nodes 61 -o comp
   abbe export machine3 --to linuxcnc-matrixkins -o comp
+  abbe export hexapod --to linuxcnc-genhexkins -o genhexkins.hal
   abbe export machine3 --to table --nodes 11 -o corrections.csv
 "))]
 pub(crate) struct Export {

@@ -33,7 +33,7 @@ pub enum Needs {
 }
 
 /// All formats.
-pub const FORMATS: [FileFormat; 8] = {
+pub const FORMATS: [FileFormat; 9] = {
     use Needs::{Nodes, NominalRobot, Nothing};
     const fn format(name: &'static str, title: &'static str, needs: Needs) -> FileFormat {
         FileFormat { name, title, needs }
@@ -50,6 +50,7 @@ pub const FORMATS: [FileFormat; 8] = {
         format("kinematics-comp", "rows and tables of HEIDENHAIN's KinematicsComp", Nodes),
         format("linuxcnc", "compensation files of LinuxCNC, one for each axis", Nodes),
         format("linuxcnc-matrixkins", "the same files, and the matrix of `matrixkins`", Nodes),
+        format("linuxcnc-genhexkins", "six legs of LinuxCNC's kinematics `genhexkins`, HAL", Nothing),
         format("table", "corrections of the joints on a grid, CSV", Nodes),
     ]
 };
@@ -87,6 +88,8 @@ pub enum Format {
         /// The matrix of `matrixkins` comes before the files.
         has_matrix: bool,
     },
+    /// Parameters of LinuxCNC's kinematics `genhexkins`.
+    LinuxCncGenhexkins,
     /// Corrections of the joints on a grid.
     Table {
         /// Number of values of each joint; by default about 10,000 nodes in all.
@@ -148,6 +151,7 @@ impl Format {
             "kinematics-comp" => Self::KinematicsComp { nodes: of_axis },
             "linuxcnc" => Self::LinuxCnc { nodes: of_axis, has_matrix: false },
             "linuxcnc-matrixkins" => Self::LinuxCnc { nodes: of_axis, has_matrix: true },
+            "linuxcnc-genhexkins" => Self::LinuxCncGenhexkins,
             _ => Self::Table { nodes },
         })
     }
@@ -171,6 +175,7 @@ impl Format {
             Self::IsgCsv { nodes } => isg_csv::write(machine, *nodes),
             Self::KinematicsComp { nodes } => kinematics_comp::write(machine, *nodes),
             Self::LinuxCnc { nodes, has_matrix } => linuxcnc::write(machine, *nodes, *has_matrix),
+            Self::LinuxCncGenhexkins => linuxcnc::write_genhexkins(machine),
             Self::Table { nodes } => joint_corrections::write(machine, *nodes, notes),
         }
     }

@@ -5,7 +5,7 @@ from typing import Literal, TypeAlias
 
 Convention: TypeAlias = Literal["standard", "modified"]
 Criterion: TypeAlias = Literal["v", "d"]
-Format: TypeAlias = Literal["dh", "urdf", "ur-calibration", "isg-csv", "kinematics-comp", "linuxcnc", "linuxcnc-matrixkins", "table"]
+Format: TypeAlias = Literal["dh", "urdf", "ur-calibration", "isg-csv", "kinematics-comp", "linuxcnc", "linuxcnc-matrixkins", "linuxcnc-genhexkins", "table"]
 Language: TypeAlias = Literal["rust", "c", "js", "python", "matlab", "st", "fmu"]
 Real: TypeAlias = Literal["double", "float"]
 Robust: TypeAlias = Literal["none", "huber", "tukey"]

@@ -111,9 +111,9 @@ impl Machine {
     ///
     /// `to`: "dh", "urdf" (a corrected copy of the file `urdf` of the nominal robot, from its link
     /// `base` to `tip`), "ur-calibration", "isg-csv", "kinematics-comp", "linuxcnc",
-    /// "linuxcnc-matrixkins" or "table". `nodes`: number of table nodes per axis or joint.
-    /// `samples`, `seed`: number and seed of the random configurations at which the remaining
-    /// errors are evaluated, in the length unit and rad.
+    /// "linuxcnc-matrixkins", "linuxcnc-genhexkins" or "table". `nodes`: number of table nodes per
+    /// axis or joint. `samples`, `seed`: number and seed of the random configurations at which the
+    /// remaining errors are evaluated, in the length unit and rad.
     ///
     /// `.files` have `.name` and `.text`; `.report(folder)` writes them. `.left_out` lists what
     /// the format cannot hold. Raises SpecError if the machine cannot be written in the format.

@@ -84,6 +84,7 @@ options! {
     TIP_LINK = "tip", "LINK";
     TOLERANCE = "tolerance";
     TO_LINUXCNC = "to", "linuxcnc";
+    TO_LINUXCNC_GENHEXKINS = "to", "linuxcnc-genhexkins";
     TO_TABLE = "to", "table";
     TO_URDF = "to", "urdf";
     UNITS_MM_DEG = "units", "mm,deg";

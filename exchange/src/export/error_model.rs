@@ -63,10 +63,13 @@ impl ErrorModel {
     pub(super) fn values(&self, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<f64>, Error> {
         let mut values = vec![0.0; self.causes.len() - self.deviations.len()];
         self.frame_effects.effects(q, s, u, &mut values)?;
+        let mut passive = vec![0.0; self.frame_effects.description().passive().count()];
+        self.frame_effects.passive(q, s, &mut passive)?;
         let symbol = |symbol| match symbol {
             Symbol::Variable(i) => q[i],
             Symbol::Parameter(i) => s[i],
             Symbol::Input(i) => u[i],
+            Symbol::Local(i) => passive[i],
             _ => 0.0,
         };
         values.extend(self.graph.evaluate(&self.deviations, symbol));

@@ -2,8 +2,8 @@
 //!
 //! A [`RealMachine`] is a spec with its repeatable errors: an `error_model` gives them as
 //! `chain_errors`, frame by frame. `origins` are the poses of its joints for robots, `slides` and
-//! `rotary_axes` the axes of machine tools. [`ExportReport`] holds the files and the
-//! [`PoseDifference`] that remains when they are used.
+//! `rotary_axes` the axes of machine tools, `tree` the frames and legs of machines with loops.
+//! [`ExportReport`] holds the files and the [`PoseDifference`] that remains when they are used.
 
 mod chain_errors;
 mod error_model;
@@ -13,6 +13,7 @@ mod real_machine;
 pub(crate) mod report;
 pub(crate) mod rotary_axes;
 pub(crate) mod slides;
+pub(crate) mod tree;
 
 pub(crate) use self::chain_errors::{about_x, about_z, product};
 pub use self::pose_difference::{Figure, PoseDifference};

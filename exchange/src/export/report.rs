@@ -5,6 +5,7 @@ use std::fmt::Display;
 use abbe::{Error, Pose};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::mistake;
+use abbe_spec::number::digits;
 use serde::Serialize;
 
 use super::pose_difference::PoseDifference;
@@ -83,6 +84,28 @@ impl ExportReport {
     ) -> Result<Self, Error> {
         let remains = machine.command_difference(|q, u| Ok(corrected(q, u)))?;
         Ok(Self::new(machine, format, files, ["as commanded", "corrected"], remains, sign))
+    }
+
+    /// Reports a format that holds the machine with its mean errors, loops closed: compares its
+    /// tool with the real one.
+    pub(crate) fn for_mean(
+        machine: &RealMachine,
+        format: &str,
+        files: Vec<ExportedFile>,
+    ) -> Result<Self, Diagnostics> {
+        if machine.mean.dh_numbers.iter().any(|errors| *errors != [0.0; 4]) {
+            let message = "this format takes no errors of Denavit-Hartenberg numbers";
+            return Err(mistake::with_help(&machine.origin, message, "give errors e_x … e_p of the frame"));
+        }
+        let model = |q: &[f64]| machine.mean_tool(q).unwrap_or(Pose([[f64::NAN; 3]; 4]));
+        let report = Self::for_model(machine, format.to_owned(), files, model, String::new());
+        let sign = format!(
+            "The numbers are those of the real machine, whose tool is up to {} {} from that of the nominal \
+             one: do not subtract anything from them.",
+            digits(report.before.position.largest, 4),
+            report.length
+        );
+        Ok(Self { sign, left_out: machine.held_at_mean().into_iter().collect(), ..report })
     }
 
     fn new(

@@ -7,8 +7,10 @@
 //! comments.
 //!
 //! With the kinematics `matrixkins` the joints X, Y and Z are a linear function of the coordinates,
-//! and the files hold what that leaves along each axis.
+//! and the files hold what that leaves along each axis. A platform on six legs has the kinematics
+//! `genhexkins`.
 
+mod genhexkins;
 mod joint;
 mod matrix;
 
@@ -20,6 +22,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::mistake;
 use abbe_spec::number::digits;
 
+pub use genhexkins::write_genhexkins;
 use joint::CompensatedJoint;
 use matrix::CalibrationMatrix;
 

@@ -3,6 +3,7 @@
 use abbe_exchange::Format;
 use abbe_exchange::export::RealMachine;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::TO_LINUXCNC_GENHEXKINS;
 
 use super::Report;
 use crate::finite;
@@ -27,11 +28,13 @@ impl Export {
     /// Writes the files as text, reads them back and compares the poses of the tool.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine: Machine { spec, origin, .. }, format, samples, seed } = self;
-        self.machine.require_chain(
-            "no format can hold the errors of this machine",
-            "use `abbe compensate` for corrected commands, or `abbe generate` for code that corrects them in the \
-             controller",
-        )?;
+        if *format != Format::LinuxCncGenhexkins {
+            let instead = format!(
+                "`{TO_LINUXCNC_GENHEXKINS}` writes a platform on six legs; `abbe compensate` corrects commands, and \
+                 `abbe generate` writes code that corrects them in the controller"
+            );
+            self.machine.require_chain("this format cannot hold the errors of this machine", &instead)?;
+        }
         let mut machine = RealMachine::new(spec, self.machine.fixed_inputs(), *samples, *seed, origin)?;
         if machine.is_nominal() {
             notes.warn("this spec has no repeatable source: the nominal machine is exported");

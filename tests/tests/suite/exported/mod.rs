@@ -1,8 +1,10 @@
 //! Exports of an identified machine: each is read back independently and compared with the machine.
 //!
-//! `dh` covers DH tables, `urdf` robot descriptions and calibrations, `slides` tables of machines
-//! with linear axes, `trunnion` those of a machine with rotary axes that carry the workpiece.
+//! `closed` covers machines with closed loops, `dh` DH tables, `urdf` robot descriptions and
+//! calibrations, `slides` tables of machines with linear axes, `trunnion` those of a machine with
+//! rotary axes that carry the workpiece.
 
+mod closed;
 mod dh;
 mod slides;
 mod trunnion;

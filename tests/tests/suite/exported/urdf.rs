@@ -42,7 +42,7 @@ const ROBOT: &str = "<?xml version=\"1.0\"?>\r
 ";
 
 /// Returns six constant errors of every frame, of both signs.
-fn all_errors(spec: &Spec) -> String {
+pub(super) fn all_errors(spec: &Spec) -> String {
     let mut text = String::new();
     for (i, frame) in spec.frames.iter().enumerate() {
         let value = |k: usize| f64::from(u32::try_from((7 * i + 3 * k + 2) % 11).unwrap()) / 5.0 - 1.0;
