@@ -1,13 +1,12 @@
-//! Two numbers in an array, for machines without a register type here: the compiler finds their
-//! instructions for pairs.
+//! Two numbers in an array: the compiler finds the instructions of the machine for pairs.
 
 use core::ops::{Add, Mul, Sub};
 
-use super::{Pair, Real};
+use super::Real;
 
 /// Two numbers.
 #[derive(Clone, Copy)]
-pub(crate) struct Array([f64; 2]);
+pub(super) struct Array(pub(super) [f64; 2]);
 
 impl Array {
     #[inline(always)]
@@ -40,18 +39,6 @@ impl Mul for Array {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.zip(other, |a, b| a * b)
-    }
-}
-
-impl Pair for Array {
-    #[inline(always)]
-    fn new(numbers: [f64; 2]) -> Self {
-        Self(numbers)
-    }
-
-    #[inline(always)]
-    fn numbers(self) -> [f64; 2] {
-        self.0
     }
 }
 
