@@ -17,7 +17,7 @@ macro_rules! scalar {
             $(
                 #[inline(always)]
                 fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-                    sin_cos::$each(angles)
+                    sin_cos::array::$each(angles)
                 }
             )?
             $(

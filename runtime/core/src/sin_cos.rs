@@ -5,11 +5,9 @@
 //! fdlibm (error below 2⁻⁵⁸), then the quadrant `n`. The error is below 1.7 ulp for `|x| ≤`
 //! [`REACH`].
 
-mod array;
+pub(crate) mod array;
 
 use core::ops::{Add, Mul, Sub};
-
-use array::Array;
 
 /// Largest `|x|` for which [`near`] holds: beyond it the products of `n` with the parts of π/2 are
 /// not exact.
@@ -135,28 +133,6 @@ pub(crate) fn scalar(x: f64) -> (f64, f64) {
     } else {
         beyond(x)
     }
-}
-
-/// Returns sine and cosine of several `f64`, with the bits of [`scalar`]. Pairs of angles share
-/// instructions.
-#[inline(always)]
-pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
-    let mut all = true;
-    for x in &angles {
-        all &= x.abs() <= REACH;
-    }
-    if !all {
-        return angles.map(scalar);
-    }
-    let mut results = [(0.0, 0.0); N];
-    for i in (0..N).step_by(2) {
-        // Two at a time; the last angle twice if the count is odd.
-        let j = (i + 1).min(N - 1);
-        let (Array(sines), Array(cosines)) = near(Array([angles[i], angles[j]]));
-        results[j] = (sines[1], cosines[1]);
-        results[i] = (sines[0], cosines[0]);
-    }
-    results
 }
 
 /// Returns sine and cosine of any `f64` from the platform's library, or from `libm` without `std`.

@@ -200,8 +200,8 @@ impl Normal {
         (penalty, number)
     }
 
-    /// Adds ridges and priors, and factorizes; none if the equations are singular. A joint without a
-    /// ridge has no profile.
+    /// Adds ridges and priors, and factorizes; none if the equations are singular. A joint without
+    /// a ridge has no profile.
     fn penalized(&self, mut matrix: DMatrix<f64>, ridges: &[Option<f64>]) -> Option<Cholesky<f64, Dyn>> {
         for (k, prior) in self.priors.iter().enumerate() {
             matrix[(k, k)] += prior;

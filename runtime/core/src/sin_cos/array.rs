@@ -2,11 +2,33 @@
 
 use core::ops::{Add, Mul, Sub};
 
-use super::Real;
+use super::{REACH, Real, near, scalar};
 
 /// Two numbers.
 #[derive(Clone, Copy)]
-pub(super) struct Array(pub(super) [f64; 2]);
+struct Array([f64; 2]);
+
+/// Returns sine and cosine of several `f64`, with the bits of [`scalar`]. Pairs of angles share
+/// instructions.
+#[inline(always)]
+pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
+    let mut all = true;
+    for x in &angles {
+        all &= x.abs() <= REACH;
+    }
+    if !all {
+        return angles.map(scalar);
+    }
+    let mut results = [(0.0, 0.0); N];
+    for i in (0..N).step_by(2) {
+        // Two at a time; the last angle twice if the count is odd.
+        let j = (i + 1).min(N - 1);
+        let (Array(sines), Array(cosines)) = near(Array([angles[i], angles[j]]));
+        results[j] = (sines[1], cosines[1]);
+        results[i] = (sines[0], cosines[0]);
+    }
+    results
+}
 
 impl Array {
     #[inline(always)]

@@ -4,7 +4,8 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use dashu_float::{ConstCache, Context, FBig, round::mode::HalfEven};
 
-use super::{REACH, Real, beyond, each, near, scalar};
+use super::array::each;
+use super::{REACH, Real, beyond, near, scalar};
 
 type Exact = FBig<HalfEven, 2>;
 type Function = fn(f64) -> (f64, f64);
