@@ -45,6 +45,7 @@ mod local_search;
 mod moving;
 mod period;
 mod problem;
+mod queue;
 mod search;
 mod search_box;
 mod singular;

@@ -1,14 +1,12 @@
 //! Branch and bound: bisects the box with the largest upper bound first.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
-
 use rayon::prelude::*;
 
 use crate::corners::Corners;
 use crate::effort::{Effort, Progress};
 use crate::local_search::{ascend, highest};
 use crate::problem::{Point, Problem};
+use crate::queue::Queue;
 use crate::search_box::{SearchBox, Workspace};
 use crate::unknowns::Buffers;
 
@@ -43,32 +41,6 @@ pub(crate) struct Search {
     pub(crate) effort: Effort,
 }
 
-/// A queued box with its number; among equal bounds the lowest number comes first.
-struct Waiting {
-    search_box: SearchBox,
-    number: usize,
-}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.search_box.most.total_cmp(&other.search_box.most).then(other.number.cmp(&self.number))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}
-
 impl Search {
     pub(crate) fn run<const N: usize>(&self, watch: &mut dyn FnMut(&Progress) -> bool) -> Bound {
         let mut best = highest::<N>(&self.problem);
@@ -83,7 +55,7 @@ impl Search {
         let first = self.problem.value_within(&mut Buffers::<N>::default(), &centres, &halves, &mut None);
         let allowed = self.size(first.range()[1]);
         let nothing = if allowed.is_finite() { (NOTHING[0] * allowed).max(NOTHING[1]) } else { NOTHING[1] };
-        let (mut waiting, mut boxes, mut left) = (BinaryHeap::new(), 0, f64::NEG_INFINITY);
+        let (mut waiting, mut boxes, mut left) = (Queue::default(), 0, f64::NEG_INFINITY);
         let mut open = vec![whole];
         let samples = self.problem.corners.as_ref().map_or(1, Corners::samples);
         let most_boxes = self.effort.boxes.min(self.effort.samples / samples);
@@ -101,10 +73,10 @@ impl Search {
                     best = ascend::<N>(&self.problem, point);
                 }
                 if let Some(search_box) = search_box {
-                    waiting.push(Waiting { search_box, number: boxes });
+                    waiting.push(-search_box.most, search_box);
                 }
             }
-            let most = waiting.peek().map_or(f64::NEG_INFINITY, |waiting: &Waiting| waiting.search_box.most);
+            let most = waiting.first().map_or(f64::NEG_INFINITY, |first: &SearchBox| first.most);
             let (found, certified) = (self.size(best.value), self.certified(most.max(left).max(best.value)));
             let enough = (found + (self.effort.gap * found).max(nothing)).max(self.effort.nothing);
             if certified <= enough {
@@ -115,7 +87,7 @@ impl Search {
             }
             open = Vec::with_capacity(2 * ROUND);
             while open.len() < 2 * ROUND
-                && let Some(Waiting { search_box, .. }) = waiting.pop()
+                && let Some(search_box) = waiting.pop()
             {
                 let is_point = search_box.low == search_box.high;
                 // A point cannot be bisected; a box whose bound does not exceed the found value is
@@ -131,7 +103,7 @@ impl Search {
                 break certified <= enough;
             }
         };
-        let top = waiting.peek().map(|waiting| &waiting.search_box);
+        let top = waiting.first();
         let most = top.map_or(f64::NEG_INFINITY, |top| top.most);
         let unbounded = top.filter(|top| top.most.is_infinite()).map(|top| top.centres().0);
         Bound {

@@ -1,8 +1,5 @@
 //! Certified bounds of the least or the largest singular value of a matrix of nodes over a box.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
-
 use abbe_codegen::graph::{Graph, Node};
 use abbe_spec::expr::Symbol;
 use nalgebra::DMatrix;
@@ -12,6 +9,7 @@ use crate::affine::{Affine, above};
 use crate::effort::{Effort, Progress};
 use crate::moving::{MOST_MOVING, Moving};
 use crate::period;
+use crate::queue::Queue;
 use crate::tape::Tape;
 
 /// Number of boxes bisected in a round, for any number of threads.
@@ -124,7 +122,6 @@ struct Candidate {
     least: f64,
     /// Name to bisect.
     split: usize,
-    number: usize,
 }
 
 /// Result of examining a box.
@@ -144,7 +141,7 @@ impl Search {
         // The search minimizes the signed value.
         let (mut found, mut at, mut boxes) = (f64::INFINITY, low.clone(), 0);
         let (mut open, mut waiting) =
-            (vec![Candidate { low, high, least: self.unknown(), split: 0, number: 0 }], BinaryHeap::new());
+            (vec![Candidate { low, high, least: self.unknown(), split: 0 }], Queue::default());
         // Lower bound over boxes that cannot be bisected.
         let mut left = f64::INFINITY;
         loop {
@@ -160,9 +157,9 @@ impl Search {
                     (found, at) = (look.found, look.at);
                 }
                 let least = candidate.least.max(look.least);
-                waiting.push(Candidate { least, split: look.split, number: boxes, ..candidate });
+                waiting.push(least, Candidate { least, split: look.split, ..candidate });
             }
-            let least = waiting.peek().map_or(f64::INFINITY, |candidate: &Candidate| candidate.least);
+            let least = waiting.first().map_or(f64::INFINITY, |candidate: &Candidate| candidate.least);
             let least = least.min(left).min(found);
             let allowed = (self.effort.gap * found.abs()).max(NOTHING * size);
             let complete = found.is_finite() && found - least <= allowed;
@@ -332,28 +329,7 @@ impl Candidate {
         let (mut lower, mut upper) = (self.high.clone(), self.low.clone());
         lower[self.split] = middle;
         upper[self.split] = middle;
-        let Self { low, high, least, split, number } = self;
-        [Self { low, high: lower, least, split, number }, Self { low: upper, high, least, split, number }]
+        let Self { low, high, least, split } = self;
+        [Self { low, high: lower, least, split }, Self { low: upper, high, least, split }]
     }
 }
-
-impl Ord for Candidate {
-    /// The least lower bound comes first; among equal bounds the older box.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.least.total_cmp(&self.least).then(other.number.cmp(&self.number))
-    }
-}
-
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Candidate {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Candidate {}

@@ -21,6 +21,7 @@ pub mod schema;
 mod acceptance;
 mod interpretations;
 mod reads;
+mod running_sums;
 mod sizes;
 
 pub use acceptance::{Acceptance, AcceptanceVerdict, LimitCheck};

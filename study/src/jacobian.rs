@@ -206,10 +206,7 @@ pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnos
     }
     let mut q = Vec::new();
     for (variable, span) in spec.variables.iter().zip(spans) {
-        let dimension = match variable.kind {
-            VariableKind::Revolute => Dimension::NONE,
-            VariableKind::Prismatic => Dimension::LENGTH,
-        };
+        let dimension = variable.kind.either(Dimension::NONE, Dimension::LENGTH);
         let what = format!("the value of `{}`", variable.name);
         if variable.kind == VariableKind::Revolute
             && check_angle_text(&text[span.clone()], &what, span.clone(), &document)

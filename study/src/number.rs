@@ -1,6 +1,5 @@
 //! Formats numbers for people: [`abbe_spec::number`], configurations, and named numbers.
 
-use abbe::VariableKind;
 use abbe::analysis::Configuration;
 use abbe_spec::Spec;
 pub use abbe_spec::number::*;
@@ -35,10 +34,7 @@ pub fn exact_quantity(value: f64, unit: &str) -> String {
 
 /// Formats joint variables in coherent units with all digits, as `--q` reads them.
 pub fn exact_variables(q: &[f64], spec: &Spec) -> String {
-    let unit = |variable: &abbe_spec::Variable| match variable.kind {
-        VariableKind::Revolute => "",
-        VariableKind::Prismatic => spec.length.symbol(),
-    };
+    let unit = |variable: &abbe_spec::Variable| variable.kind.either("", spec.length.symbol());
     let values = spec.variables.iter().zip(q).map(|(variable, value)| exact_quantity(*value, unit(variable)));
     values.map(|value| value.replace(' ', "")).collect::<Vec<_>>().join(",")
 }

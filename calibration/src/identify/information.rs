@@ -2,7 +2,8 @@
 
 use core::convert::Infallible;
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SMatrix};
+use nalgebra::allocator::Allocator;
+use nalgebra::{Cholesky, Const, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
 use super::blocks::by_blocks;
 use super::evaluated_model::EvaluatedModel;
@@ -172,43 +173,35 @@ impl Candidates {
 /// `(M ± JᵀJ)⁻¹ = C ∓ C Jᵀ (1 ± J C Jᵀ)⁻¹ J C`. The arguments are `J C^½` and `J C B^½` of the
 /// block.
 fn gain(scaled: &DMatrix<f64>, weighted: &DMatrix<f64>, rows: usize, i: usize, sign: f64) -> f64 {
+    // Points, poses and three targets need no allocation.
     match rows {
-        3 => gain_in_place::<3>(scaled, weighted, i, sign),
-        6 => gain_in_place::<6>(scaled, weighted, i, sign),
-        9 => gain_in_place::<9>(scaled, weighted, i, sign),
-        _ => {
-            let square = |matrix: &DMatrix<f64>| {
-                let rows = matrix.rows(rows * i, rows);
-                rows * rows.transpose()
-            };
-            let Some(cholesky) = (DMatrix::identity(rows, rows) + square(scaled) * sign).cholesky() else {
-                return f64::INFINITY;
-            };
-            match weighted.ncols() {
-                0 => 2.0 * sign * cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>(),
-                _ => cholesky.solve(&square(weighted)).trace(),
-            }
-        }
+        3 => gain_of(scaled, weighted, Const::<3>, i, sign),
+        6 => gain_of(scaled, weighted, Const::<6>, i, sign),
+        9 => gain_of(scaled, weighted, Const::<9>, i, sign),
+        _ => gain_of(scaled, weighted, Dyn(rows), i, sign),
     }
 }
 
-/// Computes the change with stack arrays, for points, poses and three targets.
-fn gain_in_place<const N: usize>(scaled: &DMatrix<f64>, weighted: &DMatrix<f64>, i: usize, sign: f64) -> f64 {
-    let square = |matrix: &DMatrix<f64>| {
-        let mut square = SMatrix::<f64, N, N>::zeros();
-        for column in matrix.column_iter() {
-            let rows = column.fixed_rows::<N>(N * i);
-            square += rows * rows.transpose();
+fn gain_of<R: Dim>(scaled: &DMatrix<f64>, weighted: &DMatrix<f64>, rows: R, i: usize, sign: f64) -> f64
+where
+    DefaultAllocator: Allocator<R, R>,
+{
+    let first = rows.value() * i;
+    let add_square = |sum: &mut OMatrix<f64, R, R>, matrix: &DMatrix<f64>, sign: f64| {
+        for column in 0..matrix.ncols() {
+            let part = matrix.generic_view((first, column), (rows, Const::<1>));
+            sum.ger(sign, &part, &part, 1.0);
         }
-        square
     };
-    let Some(cholesky) = (SMatrix::<f64, N, N>::identity() + square(scaled) * sign).cholesky() else {
-        return f64::INFINITY;
-    };
-    match weighted.ncols() {
-        0 => 2.0 * sign * cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>(),
-        _ => cholesky.solve(&square(weighted)).trace(),
+    let mut changed = OMatrix::identity_generic(rows, rows);
+    add_square(&mut changed, scaled, sign);
+    let Some(cholesky) = changed.cholesky() else { return f64::INFINITY };
+    if weighted.ncols() == 0 {
+        return sign * cholesky.ln_determinant();
     }
+    let mut square = OMatrix::zeros_generic(rows, rows);
+    add_square(&mut square, weighted, 1.0);
+    cholesky.solve(&square).trace()
 }
 
 impl Information {
@@ -216,7 +209,7 @@ impl Information {
     pub(super) fn new(sum: DMatrix<f64>, root: &DMatrix<f64>) -> Option<Self> {
         let p = sum.nrows();
         let cholesky = sum.cholesky()?;
-        let log_det = 2.0 * cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>();
+        let log_det = cholesky.ln_determinant();
         // M = L Lᵀ, C = L⁻ᵀ L⁻¹.
         let half = cholesky.l().tr_solve_lower_triangular(&DMatrix::identity(p, p))?;
         let weighted = cholesky.solve(root);

@@ -94,7 +94,6 @@ mod observation;
 mod options;
 mod outliers;
 mod profile;
-mod reflections;
 mod registration;
 mod residuals;
 mod robust;

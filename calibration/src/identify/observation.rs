@@ -17,7 +17,7 @@ pub enum Measurement {
 
 /// One row of measurements: station, commands, measurement and weight.
 ///
-/// A row with one point and up to seven joints takes 136 bytes without an allocation, because there
+/// A row with one point and up to six joints takes 136 bytes without an allocation, because there
 /// can be a million of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
@@ -55,11 +55,11 @@ pub struct Approach {
 impl Observation {
     /// Creates a row at the first station with weight 1, as a configuration of its own numbered as
     /// its line.
-    pub fn new(line: u64, q: impl Into<Values>, u: impl Into<Inputs>, measured: Measurement) -> Self {
+    pub fn new(line: u64, q: impl AsRef<[f64]>, u: impl Into<Inputs>, measured: Measurement) -> Self {
         Self {
             line,
             station: 0,
-            q: q.into(),
+            q: Values::from_slice(q.as_ref()),
             u: u.into(),
             configuration: line as u32,
             approach: None,

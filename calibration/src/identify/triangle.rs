@@ -5,16 +5,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::reflections::{BLOCK, Fold};
-use abbe_core::lanes::InstructionSet;
+/// Rows that are folded in together.
+const BLOCK: usize = 256;
 
 /// Triangular factor of a stack of rows.
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
-    /// `R`, in row-major order.
-    r: Vec<f64>,
-    /// Rows not yet folded in, in column-major order.
-    waiting: Vec<[f64; BLOCK]>,
+    /// `R`, and below it the rows that are not yet folded in.
+    stack: DMatrix<f64>,
     filled: usize,
 }
 
@@ -22,16 +20,16 @@ impl Triangle {
     /// Creates an empty triangle with `unknowns` columns and one for the right side.
     pub(super) fn new(unknowns: usize) -> Self {
         let width = unknowns + 1;
-        Self { r: vec![0.0; width * width], waiting: vec![[0.0; BLOCK]; width], filled: 0 }
+        Self { stack: DMatrix::zeros(width + BLOCK, width), filled: 0 }
     }
 
     /// Appends a row of derivatives and its right side, both multiplied by `weight`.
     pub(super) fn push(&mut self, row: &[f64], right: f64, weight: f64) {
-        let (place, last) = (self.filled, self.waiting.len() - 1);
-        for (column, value) in self.waiting[..last].iter_mut().zip(row) {
-            column[place] = value * weight;
+        let (place, last) = (self.stack.ncols() + self.filled, self.stack.ncols() - 1);
+        for (j, value) in row[..last].iter().enumerate() {
+            self.stack[(place, j)] = value * weight;
         }
-        self.waiting[last][place] = right * weight;
+        self.stack[(place, last)] = right * weight;
         self.filled += 1;
         if self.filled == BLOCK {
             self.fold();
@@ -39,26 +37,24 @@ impl Triangle {
     }
 
     /// Appends the rows of another triangle of the same width.
-    pub(super) fn merge(&mut self, mut other: Self) {
-        other.fold();
-        for row in other.r.chunks_exact(self.waiting.len()) {
-            self.push(row, row[row.len() - 1], 1.0);
+    pub(super) fn merge(&mut self, other: Self) {
+        for row in other.finish().row_iter() {
+            let row: Vec<f64> = row.iter().copied().collect();
+            self.push(&row, row[row.len() - 1], 1.0);
         }
     }
 
     fn fold(&mut self) {
-        if self.filled > 0 {
-            self.waiting.iter_mut().for_each(|column| column[self.filled..].fill(0.0));
-            InstructionSet::best().run(Fold { triangle: &mut self.r, block: &mut self.waiting });
-            self.filled = 0;
-        }
+        let width = self.stack.ncols();
+        let r = self.stack.rows(0, width + self.filled).into_owned().qr().unpack_r();
+        self.stack.rows_mut(0, width).copy_from(&r);
+        self.filled = 0;
     }
 
     /// Returns `R`, including the right side: a square matrix of `unknowns + 1` columns.
     pub(super) fn finish(mut self) -> DMatrix<f64> {
         self.fold();
-        let width = self.waiting.len();
-        DMatrix::from_row_slice(width, width, &self.r)
+        self.stack.rows(0, self.stack.ncols()).into_owned()
     }
 }
 

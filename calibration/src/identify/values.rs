@@ -2,79 +2,13 @@
 
 use std::ops::{Deref, DerefMut};
 
-/// Capacity of the inline storage.
-const FEW: usize = 7;
+use smallvec::SmallVec;
 
-/// Values of the joints: a slice of numbers, stored inline up to seven.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Values(Kept);
+/// Values of the joints, stored inline up to six.
+pub type Values = SmallVec<[f64; 6]>;
 
-#[derive(Clone, Debug, PartialEq)]
-enum Kept {
-    Few(u8, [f64; FEW]),
-    Many(Box<[f64]>),
-}
-
-impl Deref for Values {
-    type Target = [f64];
-
-    fn deref(&self) -> &[f64] {
-        match &self.0 {
-            Kept::Few(count, values) => &values[..usize::from(*count)],
-            Kept::Many(values) => values,
-        }
-    }
-}
-
-impl DerefMut for Values {
-    fn deref_mut(&mut self) -> &mut [f64] {
-        match &mut self.0 {
-            Kept::Few(count, values) => &mut values[..usize::from(*count)],
-            Kept::Many(values) => values,
-        }
-    }
-}
-
-impl From<&[f64]> for Values {
-    fn from(values: &[f64]) -> Self {
-        if values.len() > FEW {
-            return Self(Kept::Many(values.into()));
-        }
-        let mut few = [0.0; FEW];
-        few[..values.len()].copy_from_slice(values);
-        Self(Kept::Few(values.len() as u8, few))
-    }
-}
-
-impl From<Vec<f64>> for Values {
-    fn from(values: Vec<f64>) -> Self {
-        Self::from(&values[..])
-    }
-}
-
-/// Values of the inputs: a slice of numbers. Most machines have none.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Inputs(Option<Box<Box<[f64]>>>);
-
-impl Deref for Inputs {
-    type Target = [f64];
-
-    fn deref(&self) -> &[f64] {
-        self.0.as_ref().map_or(&[], |values| values)
-    }
-}
-
-impl DerefMut for Inputs {
-    fn deref_mut(&mut self) -> &mut [f64] {
-        self.0.as_mut().map_or(&mut [], |values| values)
-    }
-}
-
-impl From<Vec<f64>> for Inputs {
-    fn from(values: Vec<f64>) -> Self {
-        Self((!values.is_empty()).then(|| Box::new(values.into())))
-    }
-}
+/// Values of the inputs. Most machines have none.
+pub type Inputs = Box<[f64]>;
 
 /// Positions of the targets, none where one was hidden: a slice of points, a single one stored
 /// inline.

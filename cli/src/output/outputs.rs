@@ -5,16 +5,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use abbe_study::Reads;
+use same_file::Handle;
 
 use super::pending::{PREFIX, Pending};
-use super::target::{Identity, Target, identity, is_stdout, parent};
+use super::target::{Target, identity, is_stdout, parent};
 use super::{Printed, cannot_write, folders, note, record};
 use crate::failure::Failure;
 
 /// Output files of one run.
 #[derive(Debug)]
 pub(crate) struct Outputs {
-    inputs: Vec<(PathBuf, Identity)>,
+    inputs: Vec<(PathBuf, Handle)>,
     force: bool,
     /// Target paths of the output files opened so far.
     taken: Vec<Target>,

@@ -4,6 +4,8 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use same_file::Handle;
+
 use super::cannot_write;
 use crate::failure::Failure;
 
@@ -98,38 +100,13 @@ pub(super) fn parent(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Identity of a regular file under all its names: device and inode.
-#[cfg(unix)]
-pub(super) type Identity = (u64, u64);
-
-/// Identity of a regular file: its path without links.
-#[cfg(not(unix))]
-pub(super) type Identity = PathBuf;
-
-/// Returns the identity of the regular file at a path, if there is one.
-pub(super) fn identity(path: &Path) -> Option<Identity> {
-    let found = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
-    #[cfg(unix)]
-    return Some(device_and_inode(&found));
-    #[cfg(not(unix))]
-    return fs::canonicalize(path).ok().filter(|_| found.is_file());
-}
-
-#[cfg(unix)]
-fn device_and_inode(found: &fs::Metadata) -> Identity {
-    use std::os::unix::fs::MetadataExt;
-    (found.dev(), found.ino())
+/// Returns the identity of the regular file at a path under all its names, if there is one.
+pub(super) fn identity(path: &Path) -> Option<Handle> {
+    fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
+    Handle::from_path(path).ok()
 }
 
 /// Returns true if stdout is redirected to this file.
 fn is_open_as_stdout(file: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::fd::AsFd;
-        let open = std::io::stdout().as_fd().try_clone_to_owned();
-        let found = open.and_then(|open| fs::File::from(open).metadata());
-        found.is_ok_and(|found| identity(file) == Some(device_and_inode(&found)))
-    }
-    #[cfg(not(unix))]
-    false
+    Handle::stdout().is_ok_and(|open| identity(file) == Some(open))
 }

@@ -29,10 +29,7 @@ pub(super) fn errors_of_joints(graph: &mut Graph, spec: &Spec) -> Vec<Vec<[Node;
 
 /// Returns 1 rad or 1 m in the unit of each joint.
 pub(super) fn units(spec: &Spec) -> Vec<f64> {
-    let unit = |kind: VariableKind| match kind {
-        VariableKind::Revolute => 1.0,
-        VariableKind::Prismatic => 1.0 / spec.length.in_metres(),
-    };
+    let unit = |kind: VariableKind| kind.either(1.0, 1.0 / spec.length.in_metres());
     spec.variables.iter().map(|variable| unit(variable.kind)).collect()
 }
 

@@ -44,10 +44,7 @@ fn is_pair(factor: &Factor, own: usize, kind: VariableKind, spec: &Spec) -> bool
         Factor::Elementary(Elementary { motion, amount, .. }) | Factor::About { motion, amount, .. } => {
             let amount = graph.lower(amount);
             let slope = graph.diff(amount, symbol);
-            let expected = match kind {
-                VariableKind::Revolute => Motion::Rotation,
-                VariableKind::Prismatic => Motion::Translation,
-            };
+            let expected = kind.either(Motion::Rotation, Motion::Translation);
             *motion == expected && graph.value(slope).is_some_and(|slope| slope.abs() == 1.0)
         }
         Factor::Matrix(matrix) => matrix.rows.iter().flatten().all(|entry| {

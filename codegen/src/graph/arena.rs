@@ -4,17 +4,17 @@ use std::sync::Arc;
 
 use abbe_spec::expr::{Symbol, Table};
 use indexmap::{IndexMap, IndexSet};
+use rustc_hash::FxBuildHasher;
 
 use super::classes::Classes;
-use super::hash::Build;
 use super::node::{Node, Op};
 
 /// An arena of nodes in which equal operations on equal operands are one node.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    ops: IndexSet<Op, Build>,
-    names: IndexMap<Node, String, Build>,
-    numbers: IndexMap<u64, String, Build>,
+    ops: IndexSet<Op, FxBuildHasher>,
+    names: IndexMap<Node, String, FxBuildHasher>,
+    numbers: IndexMap<u64, String, FxBuildHasher>,
     tables: Vec<Arc<Table>>,
     pub(super) classes: Classes,
 }

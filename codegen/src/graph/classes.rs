@@ -1,8 +1,8 @@
 //! Equivalence classes of nodes that have been stated to be equal.
 
 use indexmap::IndexMap;
+use rustc_hash::FxBuildHasher;
 
-use super::hash::Build;
 use super::node::Node;
 
 /// A node or its negative.
@@ -20,7 +20,7 @@ pub(super) struct Classes {
     /// Representative of each node's class, by node index; `None` for a node without equals.
     pub(super) first: Vec<Option<Signed>>,
     /// Members of each class by its representative, which is the first member.
-    pub(super) all: IndexMap<Node, Vec<Signed>, Build>,
+    pub(super) all: IndexMap<Node, Vec<Signed>, FxBuildHasher>,
     /// Groups of nodes that may save operations together though none of them does alone.
     pub(super) together: Vec<Vec<Node>>,
 }

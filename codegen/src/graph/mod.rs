@@ -11,7 +11,6 @@ mod diff;
 mod equal;
 mod evaluate;
 mod functions;
-mod hash;
 mod lower;
 mod node;
 mod substitute;

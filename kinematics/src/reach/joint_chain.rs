@@ -46,10 +46,7 @@ impl JointChain {
         if !sums.followers.is_empty() || !description.frames.iter().all(|frame| frame.lower_pair) {
             return None;
         }
-        let unit = |i: usize| match description.variables[i].kind {
-            VariableKind::Revolute => 1.0,
-            VariableKind::Prismatic => arm,
-        };
+        let unit = |i: usize| description.variables[i].kind.either(1.0, arm);
         let transforms = |share: f64| {
             let mut q = start.clone();
             for &i in free {
@@ -138,10 +135,7 @@ pub(super) fn shift(by: [f64; 3]) -> Pose {
 
 /// Returns the displacement that reveals the axis of a joint.
 fn size(kind: VariableKind) -> f64 {
-    match kind {
-        VariableKind::Revolute => TURN,
-        VariableKind::Prismatic => 1.0,
-    }
+    kind.either(TURN, 1.0)
 }
 
 /// Returns a rotation about z, or a translation along it.

@@ -12,8 +12,7 @@ use super::bounded::bounded;
 use super::curvature::{Curvature, Linearization};
 use crate::sampling;
 use abbe_core::{
-    Description, Error, Manipulator, Orientation, Pose, VariableKind, deviation, drawn_pose,
-    repeatable_magnitudes,
+    Description, Error, Manipulator, Orientation, Pose, deviation, drawn_pose, repeatable_magnitudes,
 };
 
 /// `w` in metres: first that of the compensator, then so small that the orientation does not affect
@@ -162,18 +161,12 @@ impl<'a> RealTool<'a> {
 
     /// Returns one metre or one rad in the unit of a variable.
     fn unit(&self, j: usize) -> f64 {
-        match self.description.variables[j].kind {
-            VariableKind::Revolute => 1.0,
-            VariableKind::Prismatic => self.metre,
-        }
+        self.description.variables[j].kind.either(1.0, self.metre)
     }
 
     /// Returns an angle in rad, or a number of arm lengths, in the unit of a variable.
     pub(super) fn in_its_unit(&self, j: usize, [angle, share]: [f64; 2]) -> f64 {
-        match self.description.variables[j].kind {
-            VariableKind::Revolute => angle,
-            VariableKind::Prismatic => share * self.arm,
-        }
+        self.description.variables[j].kind.either(angle, share * self.arm)
     }
 
     /// Clamps values to the limits.

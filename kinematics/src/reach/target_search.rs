@@ -161,10 +161,7 @@ impl<'a> Problem<'a> {
 
     /// Returns the length of one unit of step of a free variable.
     pub(super) fn unit(&self, free: usize) -> f64 {
-        match self.variable(free).kind {
-            VariableKind::Revolute => 1.0,
-            VariableKind::Prismatic => self.arm,
-        }
+        self.variable(free).kind.either(1.0, self.arm)
     }
 
     /// Brings free revolute variables back by full turns, towards the center of their limits.

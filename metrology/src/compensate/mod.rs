@@ -11,6 +11,7 @@ use abbe_spec::option::POSES;
 use serde::Serialize;
 
 use crate::data::{Base, Data, Heading, Layout, Map, Summary, Table, Unusable};
+use crate::running_sums::RunningSums;
 use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
 use abbe_study::other_tool::{OtherTool, warn_of_other_tool};
 use abbe_study::{Machine, Notes, Residuals, RunRecord, finite, mistake, number};
@@ -134,29 +135,9 @@ pub struct NormStatistics {
     pub angle_max: f64,
 }
 
-/// Accumulated norms, for their statistics.
-#[derive(Default)]
-struct NormSums {
-    count: usize,
-    lengths: f64,
-    squares: f64,
-    length_max: f64,
-    angle_max: f64,
-}
-
-impl NormSums {
-    fn add(&mut self, ErrorNorms { length, angle }: ErrorNorms) {
-        self.count += 1;
-        self.lengths += length;
-        self.squares += length * length;
-        self.length_max = self.length_max.max(length);
-        self.angle_max = self.angle_max.max(angle);
-    }
-
-    fn statistics(&self) -> NormStatistics {
-        let n = self.count.max(1) as f64;
-        let (mean, rms) = (self.lengths / n, (self.squares / n).sqrt());
-        NormStatistics { mean, rms, max: self.length_max, angle_max: self.angle_max }
+impl NormStatistics {
+    fn new([lengths, angles]: &[RunningSums; 2]) -> Self {
+        Self { mean: lengths.mean, rms: lengths.rms(), max: lengths.max, angle_max: angles.max }
     }
 }
 
@@ -202,16 +183,18 @@ impl Compensate {
             warn_of_extrapolation(spec, &*manipulator, is_measured, "rows", configurations(), notes);
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
         let base_frame = BaseFramePoses::new(map, &data);
-        let (mut row_summary, mut before, mut after) =
-            (RowSummary::default(), NormSums::default(), NormSums::default());
+        let (mut row_summary, mut norms) = (RowSummary::default(), [[RunningSums::default(); 2]; 2]);
         let mut unusable = data.unusable.clone();
         rows::correct_all(&task, &data, &base_frame, notes, |found| {
             match found {
                 Ok(row) => {
                     let row = finite(&self.data.file, row)?;
                     row_summary.add(&row);
-                    before.add(row.before);
-                    after.add(row.after);
+                    for (sums, ErrorNorms { length, angle }) in norms.iter_mut().zip([row.before, row.after])
+                    {
+                        sums[0].add(length);
+                        sums[1].add(angle);
+                    }
                     take(row)?;
                 }
                 Err(row) => unusable.push(row),
@@ -230,8 +213,8 @@ impl Compensate {
             mobility: task.mobility,
             extrapolated,
             other_tool,
-            before: before.statistics(),
-            after: after.statistics(),
+            before: NormStatistics::new(&norms[0]),
+            after: NormStatistics::new(&norms[1]),
             file: Summary { rows: row_summary.rows, unusable: unusable.clone(), ..data.summary() },
             unusable,
             record: map.record.with_options(self.options()),

@@ -1,6 +1,5 @@
 //! Grouping of rows into configurations: joints and inputs that agree within their resolution.
 
-use abbe::VariableKind;
 use abbe::identify::Observation;
 use abbe_spec::Spec;
 use abbe_spec::expr::Unit;
@@ -16,10 +15,7 @@ const SHARE: f64 = 0.01;
 /// Returns the resolution of each variable and then of each input; 0.01 mm for lengths.
 pub(super) fn resolution(spec: &Spec) -> Vec<Option<f64>> {
     let travel = Unit::named("mm").unwrap_or(Unit::NONE).convert(0.01, spec.length);
-    let joints = spec.variables.iter().map(|variable| match variable.kind {
-        VariableKind::Revolute => Some(ANGLE),
-        VariableKind::Prismatic => Some(travel),
-    });
+    let joints = spec.variables.iter().map(|variable| variable.kind.either(Some(ANGLE), Some(travel)));
     let inputs = spec.inputs.iter().map(|input| {
         let [lower, upper] = input.range;
         has_range(input).then_some(SHARE * (upper - lower))

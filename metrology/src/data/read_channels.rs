@@ -18,10 +18,7 @@ pub(super) fn joints(root: &Section<'_>, spec: &Spec) -> Option<Vec<Channel>> {
         find_name(root.document, item.key_span.clone(), &item.key, &names, "variable");
     }
     let channels = spec.variables.iter().map(|variable| {
-        let dimension = match variable.kind {
-            VariableKind::Revolute => Dimension::NONE,
-            VariableKind::Prismatic => Dimension::LENGTH,
-        };
+        let dimension = variable.kind.either(Dimension::NONE, Dimension::LENGTH);
         let Some(item) = section.get(&variable.name) else {
             let name = &variable.name;
             let message = format!("`{name}` has no column");

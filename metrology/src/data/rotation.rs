@@ -69,31 +69,19 @@ pub(crate) fn to_numbers(turn: &Turn, r: &Rotation) -> Vec<f64> {
         Turn::Matrix(_) => (0..9).map(|k| r[k % 3][k / 3]).collect(),
         Turn::Euler(_, axes, factor) => euler(r, *axes).map(|angle| angle / factor).to_vec(),
         Turn::RotationVector(_, factor) => {
-            let [w, x, y, z] = quaternion(r);
-            let vector = UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z)).scaled_axis();
-            vector.iter().map(|v| v / factor).collect()
+            unit_quaternion(r).scaled_axis().iter().map(|v| v / factor).collect()
         }
     }
 }
 
 /// Returns the quaternion w x y z of a rotation.
 pub(crate) fn quaternion(r: &Rotation) -> [f64; 4] {
-    let trace = r[0][0] + r[1][1] + r[2][2];
-    let largest = [trace, r[0][0], r[1][1], r[2][2]];
-    let k = (0..4).max_by(|a, b| largest[*a].total_cmp(&largest[*b])).unwrap_or(0);
-    let mut q = [0.0; 4];
-    if k == 0 {
-        let s = 2.0 * (1.0 + trace).sqrt();
-        q = [s / 4.0, (r[1][2] - r[2][1]) / s, (r[2][0] - r[0][2]) / s, (r[0][1] - r[1][0]) / s];
-    } else {
-        let (i, j, l) = (k - 1, k % 3, (k + 1) % 3);
-        let s = 2.0 * (1.0 + r[i][i] - r[j][j] - r[l][l]).sqrt();
-        q[0] = (r[j][l] - r[l][j]) / s;
-        q[1 + i] = s / 4.0;
-        q[1 + j] = (r[i][j] + r[j][i]) / s;
-        q[1 + l] = (r[i][l] + r[l][i]) / s;
-    }
-    q
+    let [x, y, z, w] = unit_quaternion(r).coords.into();
+    [w, x, y, z]
+}
+
+fn unit_quaternion(r: &Rotation) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(Matrix3::from(*r)))
 }
 
 /// Returns the angles of `R_a R_b R_c`; consecutive axes differ.

@@ -128,10 +128,7 @@ fn measured_table(interpretation: &Interpretation, columns: &Columns) -> TableTe
 
 /// Returns the zero of a joint; `None` if it is that of the spec.
 fn zero(offset: f64, kind: VariableKind, spec: &Spec) -> Option<String> {
-    let (value, unit) = match kind {
-        VariableKind::Revolute => (offset.to_degrees(), "deg"),
-        VariableKind::Prismatic => (offset, spec.length.symbol()),
-    };
+    let (value, unit) = kind.either((offset.to_degrees(), "deg"), (offset, spec.length.symbol()));
     (offset != 0.0).then(|| quantity(digits(value, DIGITS), unit))
 }
 

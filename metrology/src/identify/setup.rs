@@ -2,7 +2,7 @@
 
 use abbe::analysis::sampling;
 use abbe::identify::{Failure, Model, Observation, Role, Station, Unknown};
-use abbe::{Class, Description, Manipulator, Pose, VariableKind};
+use abbe::{Class, Description, Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::{IDENTIFY_OUT, STATION_NEW};
 
@@ -274,10 +274,7 @@ impl<'a> Setup<'a> {
             let values = data.iter().map(|row| row.q[*i]);
             let (least, largest) =
                 values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-            let unit = match self.description.variables[*i].kind {
-                VariableKind::Revolute => 1.0,
-                VariableKind::Prismatic => self.arm,
-            };
+            let unit = self.description.variables[*i].kind.either(1.0, self.arm);
             largest - least > 1e-4 * unit
         };
         (0..self.description.variables.len()).filter(moves).collect()

@@ -20,6 +20,7 @@ use serde::Serialize;
 
 use crate::data::{Data, Instruments, Map, Summary, Table};
 use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_large};
+use crate::running_sums::RunningSums;
 use crate::{Acceptance, AcceptanceVerdict};
 use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
 use abbe_study::other_tool::{OtherTool, warn_of_other_tool};
@@ -137,35 +138,10 @@ pub struct Size {
     pub three_sigma: f64,
 }
 
-/// Running sums for a [`Size`], about the current mean (Welford, 1962).
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    count: f64,
-    mean: f64,
-    about_mean: f64,
-    squares: f64,
-    max: f64,
-}
-
-impl Sums {
-    fn add(&mut self, value: f64) {
-        self.count += 1.0;
-        let before = value - self.mean;
-        self.mean += before / self.count;
-        self.about_mean += before * (value - self.mean);
-        self.squares += value * value;
-        self.max = self.max.max(value.abs());
-    }
-
-    fn size(&self, name: &'static str, unit: &'static str) -> Size {
-        Size {
-            name,
-            unit,
-            mean: self.mean + 0.0,
-            rms: (self.squares / self.count.max(1.0)).sqrt(),
-            max: self.max,
-            three_sigma: 3.0 * (self.about_mean / (self.count - 1.0).max(1.0)).sqrt(),
-        }
+impl Size {
+    fn new(name: &'static str, unit: &'static str, sums: &RunningSums) -> Self {
+        let three_sigma = 3.0 * (sums.about_mean / (sums.count - 1.0).max(1.0)).sqrt();
+        Self { name, unit, mean: sums.mean + 0.0, rms: sums.rms(), max: sums.max, three_sigma }
     }
 }
 
@@ -302,7 +278,7 @@ impl Evaluated {
         let fail = |failure: identify::Failure| mistake::whole(&data.file, &failure);
         let unit = setup.description.length.symbol();
         let numbers = if setup.pose || setup.ideal.targets_of(0).len() > 1 { 6 } else { 3 };
-        let mut sizes = vec![Sums::default(); numbers + 1];
+        let mut sizes = vec![RunningSums::default(); numbers + 1];
         let (errors, mut norms) = (Errors::new(setup), identify::Distances::default());
         let again = visited_again(&data.observations);
         let (mut visits, mut rows) = (Vec::new(), Vec::new());
@@ -325,7 +301,7 @@ impl Evaluated {
         }
         notes.progress(data.observations.len(), data.observations.len());
         let norms = norms.into_figures();
-        let of = |i: usize, name, unit| sizes[i].size(name, unit);
+        let of = |i: usize, name, unit| Size::new(name, unit, &sizes[i]);
         let mut errors: Vec<Size> = (0..3).map(|i| of(i, ["x", "y", "z"][i], unit)).collect();
         errors.push(of(numbers, "norm", unit));
         errors.extend((3..numbers).map(|i| of(i, ["about x", "about y", "about z"][i - 3], "rad")));

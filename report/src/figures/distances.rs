@@ -1,6 +1,5 @@
 //! Figures of compensation: position errors of the tool point before and after.
 
-use abbe::VariableKind;
 use abbe_metrology::compensate::{Report, Row};
 use abbe_spec::Spec;
 use abbe_study::study_file::Over;
@@ -45,10 +44,7 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
     ];
     let histogram = panel("distance", "mm", &lists);
     let changes = spec.variables.iter().enumerate().filter_map(|(joint, variable)| {
-        let (factor, unit) = match variable.kind {
-            VariableKind::Revolute => (1e3, "mrad"),
-            VariableKind::Prismatic => (to_mm, "mm"),
-        };
+        let (factor, unit) = variable.kind.either((1e3, "mrad"), (to_mm, "mm"));
         let changes = report.rows.iter().filter_map(|row| Some(row.changes.get(joint)? * factor));
         let changes: Vec<f64> = changes.collect();
         let name = format!("change of {}", variable.name);

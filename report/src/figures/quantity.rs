@@ -1,6 +1,5 @@
 //! Quantity on an axis: its name, its unit, and the conversion to that unit.
 
-use abbe::VariableKind;
 use abbe::analysis::Measurand;
 use abbe_spec::Spec;
 use abbe_study::study_file::Over;
@@ -29,10 +28,10 @@ impl Quantity {
     /// Returns the quantity of a variable, a parameter or an input; degrees for revolute joints.
     pub(super) fn over(over: Over, spec: &Spec) -> Self {
         let (name, unit, factor) = match over {
-            Over::Variable(i) => match spec.variables[i].kind {
-                VariableKind::Revolute => (&spec.variables[i].name, "deg", 180.0 / std::f64::consts::PI),
-                VariableKind::Prismatic => (&spec.variables[i].name, spec.length.symbol(), 1.0),
-            },
+            Over::Variable(i) => spec.variables[i].kind.either(
+                (&spec.variables[i].name, "deg", 180.0 / std::f64::consts::PI),
+                (&spec.variables[i].name, spec.length.symbol(), 1.0),
+            ),
             Over::Parameter(i) => (&spec.parameters[i].name, spec.parameters[i].unit.as_str(), 1.0),
             Over::Input(i) => (&spec.inputs[i].name, spec.inputs[i].unit.as_str(), 1.0),
         };

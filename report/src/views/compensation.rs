@@ -142,11 +142,9 @@ fn commands(machine: &Description, report: &Report) -> Table {
         .collect();
     let first = &report.row_summary.first;
     let rows = first.iter().map(|row| {
-        let values =
-            machine.variables.iter().zip(&row.q.0).map(|(variable, (_, value))| match variable.kind {
-                VariableKind::Revolute => fixed(value.to_degrees(), 4),
-                VariableKind::Prismatic => fixed(*value, error_decimals(machine.length)),
-            });
+        let values = machine.variables.iter().zip(&row.q.0).map(|(variable, (_, value))| {
+            variable.kind.either(fixed(value.to_degrees(), 4), fixed(*value, error_decimals(machine.length)))
+        });
         let left = [row.before.length, row.after.length].map(|value| visible(factor * value, 4));
         std::iter::once(row.line.to_string()).chain(values).chain(left).collect()
     });

@@ -27,7 +27,7 @@ use self::bounds::Bounds;
 pub use self::cycle::{CHANGE, Compensated, Cycle, LARGEST, REACHED, Status, bound};
 pub use self::shortest::{DAMPING, PASSES};
 use self::shortest::{Departure, add, dot};
-use crate::{Description, Error, Orientation, Pose, Scalar, Variable, VariableKind, deviation};
+use crate::{Description, Error, Orientation, Pose, Scalar, Variable, deviation};
 
 /// Number of iterations. The real chain is evaluated at most twice more: at the command, and at the
 /// correction of the previous cycle.
@@ -153,10 +153,7 @@ impl<'a> Problem<'a> {
 
     /// Returns one metre or one rad in the unit of the variable.
     fn unit(&self, j: usize) -> f64 {
-        match self.variables[j].kind {
-            VariableKind::Revolute => 1.0,
-            VariableKind::Prismatic => self.metre,
-        }
+        self.variables[j].kind.either(1.0, self.metre)
     }
 
     /// Returns the largest change of a variable, in metres and rad.

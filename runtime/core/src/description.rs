@@ -83,6 +83,21 @@ pub enum VariableKind {
     Prismatic,
 }
 
+impl VariableKind {
+    /// Returns the first value for a revolute joint, the second for a prismatic one.
+    ///
+    /// ```
+    /// use abbe::VariableKind;
+    /// assert_eq!(VariableKind::Revolute.either("rad", "mm"), "rad");
+    /// ```
+    pub fn either<T>(self, revolute: T, prismatic: T) -> T {
+        match self {
+            Self::Revolute => revolute,
+            Self::Prismatic => prismatic,
+        }
+    }
+}
+
 /// Joint variable. Lengths are in the manipulator's unit, angles in rad.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {

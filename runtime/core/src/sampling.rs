@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use std::vec;
 use std::vec::Vec;
 
-use crate::{Description, Error, Manipulator, Variable, VariableKind};
+use crate::{Description, Error, Manipulator, Variable};
 
 /// Returns term `index` of the Halton sequence in a dimension, in `[0, 1)`: the radical inverse of
 /// `index` in the dimension's prime base.
@@ -176,10 +176,7 @@ pub fn closes(manipulator: &dyn Manipulator, q: &[f64], s: &[f64]) -> bool {
 /// is half a turn or one arm length to either side of zero. If one is infinite, the range has the
 /// same width and begins at the other.
 pub fn joint_range(variable: &Variable, arm: f64) -> [f64; 2] {
-    let span = match variable.kind {
-        VariableKind::Revolute => PI,
-        VariableKind::Prismatic => arm,
-    };
+    let span = variable.kind.either(PI, arm);
     let [lower, upper] = variable.limits;
     match (lower.is_finite(), upper.is_finite()) {
         (true, true) => [lower, upper],

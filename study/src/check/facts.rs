@@ -1,6 +1,6 @@
 //! Content of a spec, in the order of the file.
 
-use abbe::{Class, SumLimit, VariableKind};
+use abbe::{Class, SumLimit};
 use abbe_codegen::chain::effects;
 use abbe_codegen::program::{Operations, Routines};
 use abbe_interpreter::Interpreter;
@@ -144,7 +144,7 @@ impl Facts {
         });
         let variables = spec.variables.iter().map(|variable| Variable {
             name: variable.name.clone(),
-            kind: kind(variable.kind),
+            kind: variable.kind.either("revolute", "prismatic"),
             limits: variable.limits.map(finite),
             home: variable.home,
         });
@@ -189,13 +189,6 @@ impl Facts {
             sources: sources.collect(),
             operations: operations(interpreter.routines()),
         }
-    }
-}
-
-pub(super) fn kind(kind: VariableKind) -> &'static str {
-    match kind {
-        VariableKind::Revolute => "revolute",
-        VariableKind::Prismatic => "prismatic",
     }
 }
 

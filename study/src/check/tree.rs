@@ -9,7 +9,6 @@ use abbe_spec::expr::Symbol;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
-use super::facts::kind;
 use super::modes::{LoopModes, SINGULAR, search};
 use crate::closing::Closing;
 use crate::dead_point::DeadPoint;
@@ -135,7 +134,7 @@ impl Tree {
         let passive = spec.passive.iter().zip(values).map(|(variable, value)| Passive {
             name: variable.name.clone(),
             frame: frame(variable.frame),
-            kind: kind(variable.kind),
+            kind: variable.kind.either("revolute", "prismatic"),
             start: variable.home,
             value,
         });

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe::{Manipulator, VariableKind};
+use abbe::Manipulator;
 use abbe_interpreter::Interpreter;
 use abbe_spec::{Closure, Loop, Spec};
 use serde::Serialize;
@@ -286,10 +286,7 @@ fn up(study: &Study) -> usize {
 fn variables(spec: &Spec) -> Vec<LiveVariable> {
     let variable = |one: &abbe_spec::Variable| LiveVariable {
         name: one.name.clone(),
-        kind: match one.kind {
-            VariableKind::Revolute => "revolute",
-            VariableKind::Prismatic => "prismatic",
-        },
+        kind: one.kind.either("revolute", "prismatic"),
         limits: one.limits,
         home: one.home,
         description: one.description.clone(),

@@ -48,10 +48,7 @@ impl<'a> Candidates<'a> {
     fn joints(variables: &'a [Variable], length: LengthUnit) -> Self {
         let list = variables.iter().map(|variable| Candidate {
             name: &variable.name,
-            dimension: match variable.kind {
-                VariableKind::Revolute => Dimension::NONE,
-                VariableKind::Prismatic => Dimension::LENGTH,
-            },
+            dimension: variable.kind.either(Dimension::NONE, Dimension::LENGTH),
             unit: Unit::Joint(variable.kind, length),
             within: ("limits", variable.limits),
         });

@@ -214,10 +214,7 @@ fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
         Some((name, unit)) => (name.trim(), Some(unit.trim())),
         None => (heading, None),
     };
-    let dimension = |kind| match kind {
-        VariableKind::Revolute => Dimension::NONE,
-        VariableKind::Prismatic => Dimension::LENGTH,
-    };
+    let dimension = |kind: VariableKind| kind.either(Dimension::NONE, Dimension::LENGTH);
     let variables = spec.variables.iter().enumerate();
     let variables = variables.map(|(i, v)| (v.name.as_str(), Symbol::Variable(i), dimension(v.kind)));
     let parameters = spec.parameters.iter().enumerate();

@@ -16,12 +16,11 @@
 //! profile is orthogonal to them, `dᵀM w_j = 0`.
 //!
 //! `basis` has the functions, `normal` the normal equations of each fold of the cross-validation,
-//! `ridge` the choice of `λ_j`, and `symmetric` the arithmetic.
+//! and `ridge` the choice of `λ_j`.
 
 mod basis;
 mod normal;
 mod ridge;
-mod symmetric;
 #[cfg(test)]
 mod tests;
 

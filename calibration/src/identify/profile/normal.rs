@@ -2,10 +2,9 @@
 
 use core::ops::Range;
 
-use nalgebra::DMatrix;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::basis::ProfileJoint;
-use super::symmetric::{Block, Cholesky, InverseRoot, Symmetric};
 use crate::identify::fit::REJECTED;
 use crate::identify::{Failure, Fit, Folds, Model, Observation};
 use abbe_analysis::decompose::symmetric_eigen;
@@ -14,6 +13,13 @@ use abbe_analysis::in_order;
 /// Share of the information about a direction of a profile that is left beside the unknowns, below
 /// which the direction is excluded.
 const LEFT: f64 = 1e-3;
+
+/// Rows that are added to the sums together.
+const TOGETHER: usize = 64;
+
+/// Share of a diagonal entry of the equations that is left for its pivot, at which they are
+/// singular.
+const SINGULAR: f64 = 1e-14;
 
 /// Penalty of an excluded direction, as a multiple of the largest information about a function.
 const EXCLUDED: f64 = 1e6;
@@ -32,15 +38,15 @@ pub(super) struct Normal {
     /// Penalty of each unknown by its prior.
     priors: Vec<f64>,
     /// Right side of the priors.
-    prior_right: Vec<f64>,
+    prior_right: DVector<f64>,
     /// Penalties of excluded directions, and their number for each joint.
     excluded: Vec<(DMatrix<f64>, usize)>,
 }
 
 /// Sums over some rows.
 struct Part {
-    matrix: Symmetric,
-    right: Vec<f64>,
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
     squares: f64,
     numbers: usize,
 }
@@ -48,7 +54,7 @@ struct Part {
 /// Solution for given ridges.
 pub(super) struct Solution {
     pub(super) x: Vec<f64>,
-    root: InverseRoot,
+    inverse: DMatrix<f64>,
     /// Number of coefficients of each joint that the data determine.
     pub(super) effective: Vec<f64>,
 }
@@ -56,8 +62,7 @@ pub(super) struct Solution {
 impl Solution {
     /// Returns the covariance of a range of the columns, for a standard deviation of 1.
     pub(super) fn covariance(&self, range: Range<usize>) -> DMatrix<f64> {
-        let count = range.len();
-        DMatrix::from_fn(count, count, |i, j| self.root.inverse_at(range.start + i, range.start + j))
+        self.inverse.view((range.start, range.start), (range.len(), range.len())).into_owned()
     }
 }
 
@@ -85,7 +90,7 @@ impl Normal {
         let x: Vec<f64> = kept.iter().map(|k| fit.x[*k]).chain(joints.iter().map(|_| 0.0)).collect();
         let fold = |fold: usize| {
             let mut part = Part::new(size);
-            let (mut block, mut columns) = (Block::new(size), vec![0.0; size]);
+            let (mut rows, mut filled) = (DMatrix::zeros(TOGETHER, size), 0);
             let mut functions = vec![0.0; size];
             let mut extended = extended.at(&x);
             for (i, row) in data.iter().enumerate() {
@@ -97,19 +102,27 @@ impl Normal {
                     joint.fill(row.q[joint.variable], &mut functions[*start..]);
                 }
                 extended.linear(row, |residual, derivatives| {
+                    let mut columns = rows.row_mut(filled);
                     for (column, derivative) in columns.iter_mut().zip(&derivatives[..kept.len()]) {
                         *column = weight * derivative;
                     }
                     for (j, derivative) in derivatives[kept.len()..].iter().enumerate() {
-                        let range = starts[j]..starts[j + 1];
-                        for (column, function) in columns[range.clone()].iter_mut().zip(&functions[range]) {
-                            *column = weight * derivative * function;
+                        for k in starts[j]..starts[j + 1] {
+                            columns[k] = weight * derivative * functions[k];
                         }
                     }
-                    part.push(&mut block, &columns, -weight * residual);
+                    let right = -weight * residual;
+                    part.right.axpy(right, &columns.transpose(), 1.0);
+                    part.squares += right * right;
+                    part.numbers += 1;
+                    filled = (filled + 1) % TOGETHER;
+                    if filled == 0 {
+                        part.matrix.gemm_tr(1.0, &rows, &rows, 1.0);
+                    }
                 })?;
             }
-            part.matrix.add(&mut block);
+            let rows = rows.rows(0, filled);
+            part.matrix.gemm_tr(1.0, &rows, &rows, 1.0);
             Ok(part)
         };
         let (mut parts, mut all) = (Vec::new(), Part::new(size));
@@ -119,7 +132,8 @@ impl Normal {
         })?;
         let prior = |k: &usize| fit.priors.get(*k).copied().flatten().map_or(0.0, |sigma| sigma.powi(-2));
         let priors: Vec<f64> = kept.iter().map(prior).collect();
-        let prior_right = priors.iter().zip(&kept).map(|(prior, k)| -prior * fit.x[*k]).collect();
+        let mut prior_right = DVector::zeros(size);
+        (0..kept.len()).for_each(|k| prior_right[k] = -priors[k] * fit.x[kept[k]]);
         let numbers = all.numbers;
         let mut normal =
             Self { kept, numbers, starts, all, folds: parts, priors, prior_right, excluded: Vec::new() };
@@ -129,7 +143,7 @@ impl Normal {
 
     /// Returns the number of columns.
     pub(super) fn size(&self) -> usize {
-        self.all.matrix.size
+        self.all.right.len()
     }
 
     /// Returns the number of joints.
@@ -145,13 +159,13 @@ impl Normal {
     /// Returns the mean information about a function of joint j.
     pub(super) fn mean_information(&self, j: usize) -> f64 {
         let columns = self.columns(j);
-        columns.clone().map(|k| self.all.matrix.at(k, k)).sum::<f64>() / columns.len() as f64
+        columns.clone().map(|k| self.all.matrix[(k, k)]).sum::<f64>() / columns.len() as f64
     }
 
     /// Returns the information about the kept unknowns without profiles, priors included.
     pub(super) fn information(&self) -> DMatrix<f64> {
         let count = self.kept.len();
-        let mut information = DMatrix::from_fn(count, count, |i, j| self.all.matrix.at(i, j));
+        let mut information = self.all.matrix.view((0, 0), (count, count)).into_owned();
         (0..count).for_each(|k| information[(k, k)] += self.priors[k]);
         information
     }
@@ -163,12 +177,12 @@ impl Normal {
     fn excluded(&self, j: usize) -> (DMatrix<f64>, usize) {
         let (columns, count) = (self.columns(j), self.columns(j).len());
         let none = (DMatrix::zeros(count, count), 0);
-        let at = |i: usize, k: usize| self.all.matrix.at(i, k);
-        let mut m = DMatrix::from_fn(count, count, |i, k| at(columns.start + i, columns.start + k));
+        let all = &self.all.matrix;
+        let mut m = all.view((columns.start, columns.start), (count, count)).into_owned();
         let largest = m.diagonal().max();
         // A direction without information is not excluded: its ridge suffices.
         (0..count).for_each(|k| m[(k, k)] += 1e-9 * largest);
-        let cross = DMatrix::from_fn(self.kept.len(), count, |i, k| at(i, columns.start + k));
+        let cross = all.view((0, columns.start), (self.kept.len(), count)).into_owned();
         let Some(known) = self.information().cholesky() else { return none };
         let s = &m - cross.tr_mul(&known.solve(&cross));
         let Some(l) = m.cholesky().map(|cholesky| cholesky.l()) else { return none };
@@ -186,32 +200,28 @@ impl Normal {
         (penalty, number)
     }
 
-    /// Adds ridges and priors. A joint without a ridge has no profile.
-    fn penalized(&self, mut matrix: Symmetric, ridges: &[Option<f64>]) -> Symmetric {
+    /// Adds ridges and priors, and factorizes; none if the equations are singular. A joint without
+    /// a ridge has no profile.
+    fn penalized(&self, mut matrix: DMatrix<f64>, ridges: &[Option<f64>]) -> Option<Cholesky<f64, Dyn>> {
         for (k, prior) in self.priors.iter().enumerate() {
-            matrix.add_at(k, k, *prior);
+            matrix[(k, k)] += prior;
         }
         for (j, ridge) in ridges.iter().enumerate() {
             let columns = self.columns(j);
             let ridge = ridge.unwrap_or(EXCLUDED * EXCLUDED * self.mean_information(j).max(1e-300));
-            let (excluded, number) = &self.excluded[j];
-            for (i, row) in columns.clone().enumerate() {
-                matrix.add_at(row, row, ridge);
-                for (k, column) in columns.clone().enumerate().skip(i).filter(|_| *number > 0) {
-                    matrix.add_at(row, column, excluded[(i, k)]);
-                }
-            }
+            let (start, count) = (columns.start, columns.len());
+            let mut own = matrix.view_mut((start, start), (count, count));
+            own += &self.excluded[j].0;
+            (0..count).for_each(|k| own[(k, k)] += ridge);
         }
-        matrix
+        let least = matrix.diagonal() * SINGULAR;
+        let factor = matrix.cholesky()?;
+        let pivots = factor.l_dirty().diagonal();
+        pivots.iter().zip(&least).all(|(pivot, least)| pivot * pivot > *least).then_some(factor)
     }
 
-    fn right(&self, mut right: Vec<f64>) -> Vec<f64> {
-        right.iter_mut().zip(&self.prior_right).for_each(|(right, prior)| *right += prior);
-        right
-    }
-
-    fn solve(&self, cholesky: &Cholesky, right: Vec<f64>, ridges: &[Option<f64>]) -> Vec<f64> {
-        let mut x = cholesky.solve(&self.right(right));
+    fn solve(&self, factor: &Cholesky<f64, Dyn>, right: &DVector<f64>, ridges: &[Option<f64>]) -> Vec<f64> {
+        let mut x: Vec<f64> = factor.solve(&(right + &self.prior_right)).data.into();
         for j in (0..ridges.len()).filter(|j| ridges[*j].is_none()) {
             x[self.columns(j)].fill(0.0);
         }
@@ -220,17 +230,17 @@ impl Normal {
 
     /// Solves for all rows; none if the equations are singular.
     pub(super) fn solved(&self, ridges: &[Option<f64>]) -> Option<Solution> {
-        let cholesky = self.penalized(self.all.matrix.clone(), ridges).cholesky()?;
-        let x = self.solve(&cholesky, self.all.right.clone(), ridges);
-        let root = cholesky.inverse_root();
+        let factor = self.penalized(self.all.matrix.clone(), ridges)?;
+        let x = self.solve(&factor, &self.all.right, ridges);
+        let inverse = factor.inverse();
         let effective = |(j, ridge): (usize, &Option<f64>)| {
             let Some(ridge) = ridge else { return 0.0 };
-            let trace: f64 = self.columns(j).map(|k| root.inverse_at(k, k)).sum();
+            let trace: f64 = self.columns(j).map(|k| inverse[(k, k)]).sum();
             let free = self.columns(j).len() - self.excluded[j].1;
             (free as f64 - ridge * trace).max(0.0)
         };
         let effective = ridges.iter().enumerate().map(effective).collect();
-        Some(Solution { x, root, effective })
+        Some(Solution { x, inverse, effective })
     }
 
     /// Returns the sum of squared residuals of all rows.
@@ -240,12 +250,9 @@ impl Normal {
 
     /// Solves without the rows of a fold.
     pub(super) fn without(&self, fold: usize, ridges: &[Option<f64>]) -> Option<Vec<f64>> {
-        let mut matrix = self.all.matrix.clone();
-        matrix.add_times(&self.folds[fold].matrix, -1.0);
-        let cholesky = self.penalized(matrix, ridges).cholesky()?;
-        let own = &self.folds[fold].right;
-        let right = self.all.right.iter().zip(own).map(|(all, own)| all - own).collect();
-        Some(self.solve(&cholesky, right, ridges))
+        let own = &self.folds[fold];
+        let factor = self.penalized(&self.all.matrix - &own.matrix, ridges)?;
+        Some(self.solve(&factor, &(&self.all.right - &own.right), ridges))
     }
 
     /// Returns the sum of squared residuals of all folds under the solutions of the others; none if
@@ -263,29 +270,20 @@ impl Normal {
 
 impl Part {
     fn new(size: usize) -> Self {
-        Self { matrix: Symmetric::zeros(size), right: vec![0.0; size], squares: 0.0, numbers: 0 }
-    }
-
-    fn push(&mut self, block: &mut Block, row: &[f64], right: f64) {
-        if block.push(row) {
-            self.matrix.add(block);
-        }
-        self.right.iter_mut().zip(row).for_each(|(sum, value)| *sum += value * right);
-        self.squares += right * right;
-        self.numbers += 1;
+        let (matrix, right) = (DMatrix::zeros(size, size), DVector::zeros(size));
+        Self { matrix, right, squares: 0.0, numbers: 0 }
     }
 
     fn add(&mut self, other: &Self) {
-        self.matrix.add_times(&other.matrix, 1.0);
-        self.right.iter_mut().zip(&other.right).for_each(|(own, other)| *own += other);
+        self.matrix += &other.matrix;
+        self.right += &other.right;
         self.squares += other.squares;
         self.numbers += other.numbers;
     }
 
     /// Returns `‖r − A x‖² = rᵀr − 2 gᵀx + xᵀN x`.
     fn squares_at(&self, x: &[f64]) -> f64 {
-        let product = self.matrix.times(x);
-        let terms = x.iter().zip(&self.right).zip(&product);
-        self.squares + terms.map(|((x, right), product)| x * (product - 2.0 * right)).sum::<f64>()
+        let x = DVector::from_column_slice(x);
+        self.squares + x.dot(&(&self.matrix * &x - &self.right * 2.0))
     }
 }

@@ -1,6 +1,5 @@
 //! Units of equations and variables, and values at home.
 
-use abbe_core::VariableKind;
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Spec, Variable};
 
@@ -35,10 +34,7 @@ impl Units {
         };
         let lengths: Vec<f64> = spec.loops.iter().map(&mut length).collect();
         let longest = lengths.iter().copied().reduce(f64::max).unwrap_or(1.0);
-        let unit = |variable: &Variable| match variable.kind {
-            VariableKind::Revolute => 1.0,
-            VariableKind::Prismatic => longest,
-        };
+        let unit = |variable: &Variable| variable.kind.either(1.0, longest);
         let of_loop = |(closed, length): (&abbe_spec::Loop, f64)| {
             let unit = |i| if closed.closure.is_angle(i) { 1.0 } else { length };
             (0..closed.closure.equations()).map(unit).collect::<Vec<f64>>()

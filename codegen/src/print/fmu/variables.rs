@@ -70,10 +70,7 @@ impl Variables {
             range: [f64::NEG_INFINITY, f64::INFINITY],
             description: description.replace('`', ""),
         };
-        let of_kind = |kind| match kind {
-            VariableKind::Revolute => Some(Unit::angle()),
-            VariableKind::Prismatic => length.clone(),
-        };
+        let of_kind = |kind: VariableKind| kind.either(Some(Unit::angle()), length.clone());
         let time = Some(Unit::coherent(Dimension::TIME, spec.length));
         let mut list = vec![Variable { unit: time, ..number("time".into(), Causality::Independent, "Time") }];
         let mut places = vec![("q", list.len())];

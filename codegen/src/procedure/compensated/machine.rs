@@ -82,10 +82,7 @@ pub(super) struct Machine<'s> {
 impl Machine<'_> {
     /// Returns 1 rad or 1 m in the unit of each variable.
     pub(super) fn units(&self) -> Vec<f64> {
-        let unit = |kind| match kind {
-            VariableKind::Revolute => 1.0,
-            VariableKind::Prismatic => self.metre,
-        };
+        let unit = |kind: VariableKind| kind.either(1.0, self.metre);
         self.spec.variables.iter().map(|variable| unit(variable.kind)).collect()
     }
 }

@@ -1,6 +1,6 @@
 //! Conventions and values of an analysis, for its page.
 
-use abbe::{Orientation, VariableKind};
+use abbe::Orientation;
 use abbe_study::analyze::Report;
 use abbe_study::number::{self, quantity};
 
@@ -37,10 +37,7 @@ pub(super) fn values(report: &Report) -> Section {
         let variable = frame.variable.map(|variable| {
             let variable = &spec.variables[variable];
             let show = |value| number::of_variable(value, variable.kind, unit);
-            let kind = match variable.kind {
-                VariableKind::Revolute => "revolute",
-                VariableKind::Prismatic => "prismatic",
-            };
+            let kind = variable.kind.either("revolute", "prismatic");
             let [lower, upper] = variable.limits.map(show);
             format!("{} {kind}, {lower} … {upper}, home {}", variable.name, show(variable.home))
         });

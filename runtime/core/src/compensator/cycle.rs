@@ -50,10 +50,7 @@ impl<const N: usize> Cycle<[f64; N]> {
 
 /// Returns a bound in rad and metres in the unit of a variable.
 pub fn bound(description: &Description, kind: VariableKind, [angle, length]: [f64; 2]) -> f64 {
-    match kind {
-        VariableKind::Revolute => angle,
-        VariableKind::Prismatic => length / description.length.in_metres(),
-    }
+    kind.either(angle, length / description.length.in_metres())
 }
 
 /// Outcome of a cycle. Whatever it is, the commands are within the limits and the bounds, and

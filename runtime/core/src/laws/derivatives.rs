@@ -5,8 +5,7 @@ use super::samples::{Sample, Subject};
 use super::{Discrepancy, Failure};
 use crate::chain::displacement;
 use crate::{
-    Component, Description, Error, Manipulator, Orientation, Pose, VariableKind, deviation, drawn_pose,
-    tool_pose,
+    Component, Description, Error, Manipulator, Orientation, Pose, deviation, drawn_pose, tool_pose,
 };
 
 /// First step of the differences, in rad or arm lengths.
@@ -96,10 +95,7 @@ pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
     let description = manipulator.description();
     compare(manipulator, samples, description.variables.len(), |subject, sample, at, columns| {
         manipulator.joint_jacobian(&at.given.q, &at.given.s, columns)?;
-        let units = description.variables.iter().map(|variable| match variable.kind {
-            VariableKind::Revolute => 1.0,
-            VariableKind::Prismatic => subject.arm,
-        });
+        let units = description.variables.iter().map(|variable| variable.kind.either(1.0, subject.arm));
         let expected = directions(units, sample).into_iter().map(|direction| {
             let moved = |step: f64| {
                 let q = direction.from(&at.given.q, step);

@@ -148,10 +148,7 @@ impl Declarations {
         let table = item.table("`variable`", &[&keys::VARIABLE, &keys::FRAME_VARIABLE])?;
         let name_item = table.required("name");
         let kind = table.required("kind").and_then(|kind| kind.choice(&JOINT_KINDS));
-        let dimension = kind.map(|kind| match kind {
-            VariableKind::Revolute => Dimension::NONE,
-            VariableKind::Prismatic => Dimension::LENGTH,
-        });
+        let dimension = kind.map(|kind| kind.either(Dimension::NONE, Dimension::LENGTH));
         let name_item = name_item?;
         let name = name_item.string()?;
         let passive = table.get("passive");

@@ -12,10 +12,9 @@ use crate::value::find_name;
 /// Reads the table, if there is one.
 pub(super) fn read_fitted(root: &Section<'_>, declarations: &Declarations) -> Vec<Fitted> {
     let section = root.get("fitted").and_then(|item| item.section());
-    let variables = declarations.variables.iter().map(|variable| match variable.kind {
-        VariableKind::Revolute => (variable.name.as_str(), Dimension::NONE),
-        VariableKind::Prismatic => (variable.name.as_str(), Dimension::LENGTH),
-    });
+    let dimension = |kind: VariableKind| kind.either(Dimension::NONE, Dimension::LENGTH);
+    let variables = declarations.variables.iter();
+    let variables = variables.map(|variable| (variable.name.as_str(), dimension(variable.kind)));
     let inputs = declarations.inputs.iter().map(|input| (input.name.as_str(), input.dimension));
     let (names, dimensions): (Vec<&str>, Vec<Dimension>) = variables.chain(inputs).unzip();
     let mut fitted = Vec::new();

@@ -178,10 +178,7 @@ fn about_axis(
         }
         return Some(Vec::new());
     };
-    let (motion, dimension) = match kind {
-        VariableKind::Revolute => (R, Dimension::NONE),
-        VariableKind::Prismatic => (T, Dimension::LENGTH),
-    };
+    let (motion, dimension) = kind.either((R, Dimension::NONE), (T, Dimension::LENGTH));
     let mut axis = [1.0, 0.0, 0.0];
     if let Some(item) = item {
         let entries: [Item<'_>; 3] = item.entries("three numbers")?;

@@ -1,8 +1,6 @@
 //! Tool point error that a figure shows, and its configuration.
 
-use abbe::analysis::Configuration;
 use abbe::analysis::sampling::norm;
-use serde::{Deserialize, Serialize};
 
 /// Error of three rows: the signed repeatable part, and the bound ± of the random part.
 #[derive(Clone, Copy, Debug)]
@@ -18,13 +16,4 @@ impl Errors {
     pub(super) fn norm(&self) -> f64 {
         norm(self.repeatable) + self.random_norm
     }
-}
-
-/// Serialized form of a configuration.
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Configuration")]
-pub(super) struct SerializedConfiguration {
-    q: Vec<f64>,
-    s: Vec<f64>,
-    u: Vec<f64>,
 }

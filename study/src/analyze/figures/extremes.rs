@@ -4,7 +4,7 @@ use abbe::analysis::Configuration;
 use serde::{Deserialize, Serialize};
 
 use super::bins::{Bins, Merge, listed};
-use super::errors::{Errors, SerializedConfiguration};
+use super::errors::Errors;
 
 /// Exponent of the smallest bin width, 2^-20: about a micrometre or a microradian.
 const FINEST: i32 = -20;
@@ -54,7 +54,6 @@ pub struct Worst {
     /// Norm of the error: the length unit, or rad.
     pub norm: f64,
     /// Configuration with this norm.
-    #[serde(with = "SerializedConfiguration")]
     pub configuration: Configuration,
 }
 

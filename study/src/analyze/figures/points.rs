@@ -3,7 +3,7 @@
 use abbe::analysis::Configuration;
 use serde::{Deserialize, Serialize};
 
-use super::errors::{Errors, SerializedConfiguration};
+use super::errors::Errors;
 
 /// Error at one configuration.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -13,7 +13,6 @@ pub struct Point {
     /// Error along x, y and z of `F_0`, in the length unit; of orientations, rows 4–6 in rad.
     pub error: [f64; 3],
     /// The configuration.
-    #[serde(with = "SerializedConfiguration")]
     pub configuration: Configuration,
 }
 

@@ -1,7 +1,7 @@
 //! Value of a random source, as stated in the spec.
 
+use abbe::Component;
 use abbe::analysis::Contribution;
-use abbe::{Component, VariableKind};
 use abbe_spec::expr::Expression;
 use abbe_spec::{ChainNumber, DhNumber, Source, Spec, Uncertain};
 
@@ -58,10 +58,7 @@ impl SourceValue {
 
 fn quantity(spec: &Spec, number: ChainNumber) -> Quantity {
     match number {
-        ChainNumber::Joint(joint) => match spec.variables[joint].kind {
-            VariableKind::Revolute => Quantity::Angle,
-            VariableKind::Prismatic => Quantity::Length,
-        },
+        ChainNumber::Joint(joint) => spec.variables[joint].kind.either(Quantity::Angle, Quantity::Length),
         ChainNumber::Parameter(parameter) => Quantity::Parameter(spec.parameters[parameter].unit.clone()),
         ChainNumber::DenavitHartenberg { number: DhNumber::Theta | DhNumber::Alpha, .. } => Quantity::Angle,
         ChainNumber::DenavitHartenberg { number: DhNumber::D | DhNumber::A, .. } => Quantity::Length,
