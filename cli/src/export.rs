@@ -22,6 +22,7 @@ use crate::output::{Outcome, Outputs, Pending};
   abbe export machine3 --to linuxcnc --nodes 61 -o comp
   abbe export machine3 --to linuxcnc-matrixkins -o comp
   abbe export hexapod --to linuxcnc-genhexkins -o genhexkins.hal
+  abbe export hexapod --to urdf -o urdf
   abbe export machine3 --to table --nodes 11 -o corrections.csv
 "))]
 pub(crate) struct Export {
@@ -31,7 +32,7 @@ pub(crate) struct Export {
     #[arg(long, value_name = "FORMAT", value_parser = formats())]
     to: String,
     /// URDF file of the nominal robot, for `--to urdf`: the output is a copy of it with corrected
-    /// joint origins
+    /// joint origins. [default: a URDF of the frames of the spec]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     from: Option<PathBuf>,
     /// Link of the URDF file whose frame is F_0. [default: the root link]
@@ -76,10 +77,6 @@ impl Export {
                 Failure::new(option, message).help(format!("leave `{option}` out"))
             };
             match unfit {
-                FormatMismatch::NoNominalRobot => {
-                    let failure = Failure::new("--to urdf", "the URDF file of the nominal robot is missing");
-                    failure.help("add `--from robot.urdf`")
-                }
                 FormatMismatch::NeedlessNodes => needless("--nodes"),
                 FormatMismatch::NeedlessRobot | FormatMismatch::Unknown => needless("--from"),
             }

@@ -26,7 +26,7 @@ pub struct FileFormat {
 pub enum Needs {
     /// Nothing.
     Nothing,
-    /// The URDF file of the nominal robot.
+    /// The URDF file of the nominal robot, or nothing.
     NominalRobot,
     /// The number of nodes of its tables.
     Nodes,
@@ -42,7 +42,7 @@ pub const FORMATS: [FileFormat; 9] = {
         format("dh", "table of Denavit-Hartenberg numbers, CSV", Nothing),
         format(
             "urdf",
-            "copy of the URDF file of the nominal robot, with corrected joint origins",
+            "URDF of the frames, with a file of its loops, or a corrected copy of the URDF of the nominal robot",
             NominalRobot,
         ),
         format("ur-calibration", "calibration of an arm of Universal Robots, YAML", Nothing),
@@ -69,6 +69,8 @@ pub enum Format {
         /// Link whose frame is the tool point; the only link without a child if not given.
         tip: Option<String>,
     },
+    /// URDF of the frames, and a file of the loops.
+    UrdfTree,
     /// Calibration of an arm of Universal Robots, YAML.
     UrCalibration,
     /// Tables of volumetric compensation of TwinCAT CNC and the ISG kernel.
@@ -102,8 +104,6 @@ pub enum Format {
 pub enum FormatMismatch {
     /// No format has this name.
     Unknown,
-    /// The URDF file of the nominal robot is missing.
-    NoNominalRobot,
     /// The format has no use for a URDF file or its links.
     NeedlessRobot,
     /// The format has no use for a number of nodes.
@@ -135,8 +135,9 @@ impl Format {
         nodes: Option<usize>,
     ) -> Result<Self, FormatMismatch> {
         let format = FORMATS.iter().find(|format| format.name == name).ok_or(FormatMismatch::Unknown)?;
-        let is_robot_given = robot.is_some() || base.is_some() || tip.is_some();
-        if format.needs != Needs::NominalRobot && is_robot_given {
+        let are_ends_given = base.is_some() || tip.is_some();
+        let is_needless = robot.as_ref().map_or(are_ends_given, |_| format.needs != Needs::NominalRobot);
+        if is_needless {
             return Err(FormatMismatch::NeedlessRobot);
         }
         if format.needs != Needs::Nodes && nodes.is_some() {
@@ -145,7 +146,7 @@ impl Format {
         let of_axis = nodes.unwrap_or(Self::NODES);
         Ok(match name {
             "dh" => Self::Dh,
-            "urdf" => Self::Urdf { file: robot.ok_or(FormatMismatch::NoNominalRobot)?, base, tip },
+            "urdf" => robot.map_or(Self::UrdfTree, |file| Self::Urdf { file, base, tip }),
             "ur-calibration" => Self::UrCalibration,
             "isg-csv" => Self::IsgCsv { nodes: of_axis },
             "kinematics-comp" => Self::KinematicsComp { nodes: of_axis },
@@ -171,6 +172,7 @@ impl Format {
             Self::Urdf { file, base, tip } => {
                 urdf::write(machine, file, &Ends { base: base.clone(), tip: tip.clone() })
             }
+            Self::UrdfTree => urdf::write_tree(machine),
             Self::UrCalibration => ur_calibration::write(machine),
             Self::IsgCsv { nodes } => isg_csv::write(machine, *nodes),
             Self::KinematicsComp { nodes } => kinematics_comp::write(machine, *nodes),

@@ -619,8 +619,9 @@ class Machine:
         load, and evaluates the errors that remain.
 
         `to`: "dh", "urdf" (a corrected copy of the file `urdf` of the nominal robot, from its link
-        `base` to `tip`), "ur-calibration", "isg-csv", "kinematics-comp", "linuxcnc",
-        "linuxcnc-matrixkins", "linuxcnc-genhexkins" or "table". `nodes`: number of table nodes per
+        `base` to `tip`; without `urdf` one of the frames, and a file of the loops),
+        "ur-calibration", "isg-csv", "kinematics-comp", "linuxcnc", "linuxcnc-matrixkins",
+        "linuxcnc-genhexkins" or "table". `nodes`: number of table nodes per
         axis or joint. `samples`, `seed`: number and seed of the random configurations at which the
         remaining errors are evaluated, in the length unit and rad.
 

@@ -110,8 +110,9 @@ impl Machine {
     /// load, and evaluates the errors that remain.
     ///
     /// `to`: "dh", "urdf" (a corrected copy of the file `urdf` of the nominal robot, from its link
-    /// `base` to `tip`), "ur-calibration", "isg-csv", "kinematics-comp", "linuxcnc",
-    /// "linuxcnc-matrixkins", "linuxcnc-genhexkins" or "table". `nodes`: number of table nodes per
+    /// `base` to `tip`; without `urdf` one of the frames, and a file of the loops),
+    /// "ur-calibration", "isg-csv", "kinematics-comp", "linuxcnc", "linuxcnc-matrixkins",
+    /// "linuxcnc-genhexkins" or "table". `nodes`: number of table nodes per
     /// axis or joint. `samples`, `seed`: number and seed of the random configurations at which the
     /// remaining errors are evaluated, in the length unit and rad.
     ///
@@ -144,9 +145,6 @@ impl Machine {
             let needless = |name: &str| format!("`{name}` is not for to={to:?}: leave it out");
             PyValueError::new_err(match unfit {
                 FormatMismatch::Unknown => format!("to={to:?}: {}", one_of(Exported::names())),
-                FormatMismatch::NoNominalRobot => {
-                    "name the URDF file of the nominal robot: urdf=…".to_owned()
-                }
                 FormatMismatch::NeedlessNodes => needless("nodes"),
                 FormatMismatch::NeedlessRobot => {
                     needless(given.iter().find(|(_, given)| *given).map_or("urdf", |(name, _)| *name))

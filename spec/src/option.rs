@@ -48,6 +48,7 @@ options! {
     DISABLE_NAME = "disable", "NAME";
     ENABLE = "enable";
     FOLD = "fold";
+    FROM = "from";
     FULL = "full";
     MAP = "map";
     MAP_FILE = "map", "FILE";
@@ -110,6 +111,7 @@ fn in_python(name: &str, value: Option<&str>) -> String {
     let argument = match name {
         "set" => "with_parameters",
         "dh" => "convention",
+        "from" => "urdf",
         "station" => "new_station",
         _ => &name.replace('-', "_"),
     };

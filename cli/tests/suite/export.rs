@@ -56,8 +56,7 @@ fn several_files_need_a_folder_and_options_their_format() {
         assert_eq!(fs::read_to_string(out.join(file)).unwrap().lines().count(), 5);
     }
     for (words, said) in [
-        (&["--to", "urdf"][..], "--from robot.urdf"),
-        (&["--to", "dh", "--from", "robot.urdf"], "leave `--from` out"),
+        (&["--to", "dh", "--from", "robot.urdf"][..], "leave `--from` out"),
         (&["--to", "linuxcnc-genhexkins"], "6 commanded joints and 0 loops"),
         (&["--to", "dh", "--nodes", "5"], "leave `--nodes` out"),
         (&["--to", "table", "--nodes", "1000"], "choose fewer nodes"),

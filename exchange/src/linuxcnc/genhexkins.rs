@@ -16,6 +16,7 @@ use abbe::analysis::sampling;
 use abbe::{Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Symbol;
+use abbe_spec::option::TO_URDF;
 use abbe_spec::{Loop, mistake};
 
 use crate::export::tree::moves;
@@ -31,8 +32,10 @@ use crate::placement::roll_pitch_yaw;
 pub fn write_genhexkins(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let spec = &machine.spec;
     let refused = |message: String| {
-        let help = "genhexkins holds six legs from the base to the part with the tool, each as long as its \
-                    variable and a constant; `abbe generate` writes code for any machine";
+        let help = format!(
+            "genhexkins holds six legs from the base to the part with the tool, each as long as its variable \
+             and a constant; `{TO_URDF}` writes frames and loops, `abbe generate` code for any machine"
+        );
         mistake::with_help(&machine.origin, message, help)
     };
     let (joints, loops) = (spec.variables.len(), spec.loops.len());

@@ -3,7 +3,7 @@
 use abbe_exchange::Format;
 use abbe_exchange::export::RealMachine;
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::option::TO_LINUXCNC_GENHEXKINS;
+use abbe_spec::option::{TO_LINUXCNC_GENHEXKINS, TO_URDF};
 
 use super::Report;
 use crate::finite;
@@ -28,9 +28,9 @@ impl Export {
     /// Writes the files as text, reads them back and compares the poses of the tool.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine: Machine { spec, origin, .. }, format, samples, seed } = self;
-        if *format != Format::LinuxCncGenhexkins {
+        if !matches!(format, Format::UrdfTree | Format::LinuxCncGenhexkins) {
             let instead = format!(
-                "`{TO_LINUXCNC_GENHEXKINS}` writes a platform on six legs; `abbe compensate` corrects commands, and \
+                "`{TO_URDF}` writes frames and loops, `{TO_LINUXCNC_GENHEXKINS}` six legs; `abbe compensate` corrects commands, and \
                  `abbe generate` writes code that corrects them in the controller"
             );
             self.machine.require_chain("this format cannot hold the errors of this machine", &instead)?;

@@ -132,7 +132,8 @@ fn nearest(rpy: [f64; 3], old: [f64; 3]) -> [f64; 3] {
     if distance(one) <= distance(other) { one } else { other }
 }
 
-fn three(numbers: [f64; 3]) -> String {
+/// Writes three numbers of an attribute.
+pub(super) fn three(numbers: [f64; 3]) -> String {
     let [x, y, z] = numbers.map(rounded);
     format!("{x} {y} {z}")
 }

@@ -1,6 +1,8 @@
-//! Writes the origins of the joints of the real robot into the URDF file of the nominal one.
+//! Writes the origins of the joints of the real robot into the URDF file of the nominal one, or a
+//! `tree` of its own.
 
 mod edit;
+mod tree;
 
 use abbe_spec::option::{BASE, BASE_LINK, TIP, TIP_LINK};
 use std::path::Path;
@@ -12,7 +14,8 @@ use abbe_spec::document::Document;
 use abbe_spec::mistake;
 use abbe_spec::number::{digits, length};
 
-use self::edit::{Edited, NewOrigin};
+use self::edit::{Edited, NewOrigin, three};
+pub use self::tree::write_tree;
 use super::nominal::NominalChain;
 use super::read::Ends;
 use crate::export::origins::{Joint, origins};
