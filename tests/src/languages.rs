@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_parameters};
-use abbe::compensator::{CHANGE, Cycle, LARGEST, Status, bound, compensate};
+use abbe::compensator::{CHANGE, Compensated, Cycle, LARGEST, Status, bound, compensate};
 use abbe::function::{Array, COMPENSATED, Signature};
-use abbe::{Description, Function, Input, Manipulator, Pose, VariableKind};
+use abbe::{Description, Error, Function, Input, Manipulator, Pose, VariableKind};
 
 /// Spec with keywords of languages, and names that their functions use.
 pub const NAMES: &str = r#"
@@ -202,25 +202,8 @@ pub fn compare_compensated(
     status: f64,
 ) -> Result<(), String> {
     let description = robot.description();
-    let (name, count) = (&description.name, description.variables.len());
-    let given = arguments(robot, &COMPENSATED, given);
-    let (given, cycle) = given.split_at(given.len() - 3 * count - 3);
-    let (q, rest) = given.split_at(count);
-    let (last, cycle) = cycle.split_at(count);
-    let (change, cycle) = cycle.split_at(count);
-    let (largest, rotations) = cycle.split_at(count);
-    let cycle = Cycle { last, change, largest, rotations: std::array::from_fn(|k| rotations[k]) };
-    let pose = |numbers: &[f64]| Pose(std::array::from_fn(|i| std::array::from_fn(|j| numbers[3 * i + j])));
-    let configuration = &given[..count + description.parameters.len()];
-    let target = pose(&evaluate(Function::Pose, configuration));
-    let expected =
-        compensate(description, &target, &q.to_vec(), &cycle, vec![[0.0; 6]; count], |q, columns| {
-            let step = evaluate(Function::CompensatorStep, &[&q[..], rest].concat());
-            let (real, twists) = step.split_at(12);
-            columns.as_flattened_mut().copy_from_slice(twists);
-            Ok(pose(real))
-        });
-    let expected = expected.unwrap();
+    let name = &description.name;
+    let expected = compensated(robot, |function, given| Ok(evaluate(function, given)), given).unwrap();
     if status != f64::from(expected.status.code()) {
         return Err(format!("{name}: status {status} and {:?}", expected.status));
     }
@@ -241,4 +224,34 @@ pub fn compare_compensated(
         is_close.then_some(()).ok_or_else(|| format!("{name} {status}: {found} and {expected}"))?;
     }
     Ok(())
+}
+
+/// Computes the compensated commands of a configuration by the functions that `evaluate` gives.
+///
+/// # Errors
+///
+/// Returns those of `evaluate`.
+pub fn compensated(
+    robot: &dyn Manipulator,
+    evaluate: impl Fn(Function, &[f64]) -> Result<Vec<f64>, Error>,
+    given: &[f64],
+) -> Result<Compensated<Vec<f64>>, Error> {
+    let description = robot.description();
+    let count = description.variables.len();
+    let given = arguments(robot, &COMPENSATED, given);
+    let (given, cycle) = given.split_at(given.len() - 3 * count - 3);
+    let (q, rest) = given.split_at(count);
+    let (last, cycle) = cycle.split_at(count);
+    let (change, cycle) = cycle.split_at(count);
+    let (largest, rotations) = cycle.split_at(count);
+    let cycle = Cycle { last, change, largest, rotations: std::array::from_fn(|k| rotations[k]) };
+    let pose = |numbers: &[f64]| Pose(std::array::from_fn(|i| std::array::from_fn(|j| numbers[3 * i + j])));
+    let configuration = &given[..count + description.parameters.len()];
+    let target = pose(&evaluate(Function::Pose, configuration)?);
+    compensate(description, &target, &q.to_vec(), &cycle, vec![[0.0; 6]; count], |q, columns| {
+        let step = evaluate(Function::CompensatorStep, &[&q[..], rest].concat())?;
+        let (real, twists) = step.split_at(12);
+        columns.as_flattened_mut().copy_from_slice(twists);
+        Ok(pose(real))
+    })
 }

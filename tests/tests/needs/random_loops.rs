@@ -1,10 +1,10 @@
 //! Random machines with loops.
 
 use abbe::analysis::sampling::{self, arm_length, halton, nominal_parameters};
-use abbe::{Function, Manipulator, VariableKind};
+use abbe::{Error, Function, Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
-use abbe_tests::languages::{arguments, configurations, given_arrays};
+use abbe_tests::languages::{arguments, compensated, configurations, given_arrays};
 use abbe_tests::mechanisms::Mechanism;
 use abbe_tests::platforms::{BODIES, platform};
 use abbe_tests::thorough;
@@ -40,14 +40,16 @@ pub(crate) fn random_loops(few: usize) -> impl Iterator<Item = (Spec, Vec<Vec<f6
         let mut columns = vec![[0.0; 6]; home.len()];
         robot.joint_jacobian(&home, &nominal_parameters(description), &mut columns).ok()?;
         let moves = columns.as_flattened().iter().any(|entry| entry.abs() > 1e-6);
-        let is_finite = |given: &Vec<f64>| {
-            Function::all(description).all(|function| {
-                let given = arguments(&robot, function.signature(), given);
-                let found = robot.evaluate_unchecked(function, &given);
-                found.is_ok_and(|found| found.iter().all(|value| value.is_finite()))
-            })
+        let evaluate = |function: Function, given: &[f64]| {
+            let found = robot.evaluate_unchecked(function, given)?;
+            if found.iter().all(|value| value.is_finite()) { Ok(found) } else { Err(Error::NotClosed) }
         };
-        given.retain(is_finite);
+        given.retain(|given| {
+            let closes = |function: Function| {
+                evaluate(function, &arguments(&robot, function.signature(), given)).is_ok()
+            };
+            Function::all(description).all(closes) && compensated(&robot, evaluate, given).is_ok()
+        });
         given.truncate(10);
         (moves && given.len() == 10).then_some((spec, given))
     });

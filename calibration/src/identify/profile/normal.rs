@@ -14,7 +14,7 @@ use abbe_analysis::in_order;
 /// which the direction is excluded.
 const LEFT: f64 = 1e-3;
 
-/// Rows that are added to the sums together.
+/// Rows that are added to the sums together, and columns that are eliminated together.
 const TOGETHER: usize = 64;
 
 /// Share of a diagonal entry of the equations that is left for its pivot, at which they are
@@ -117,12 +117,12 @@ impl Normal {
                     part.numbers += 1;
                     filled = (filled + 1) % TOGETHER;
                     if filled == 0 {
-                        part.matrix.gemm_tr(1.0, &rows, &rows, 1.0);
+                        part.matrix.gemm(1.0, &rows.transpose(), &rows, 1.0);
                     }
                 })?;
             }
             let rows = rows.rows(0, filled);
-            part.matrix.gemm_tr(1.0, &rows, &rows, 1.0);
+            part.matrix.gemm(1.0, &rows.transpose(), &rows, 1.0);
             Ok(part)
         };
         let (mut parts, mut all) = (Vec::new(), Part::new(size));
@@ -215,7 +215,7 @@ impl Normal {
             (0..count).for_each(|k| own[(k, k)] += ridge);
         }
         let least = matrix.diagonal() * SINGULAR;
-        let factor = matrix.cholesky()?;
+        let factor = cholesky(matrix)?;
         let pivots = factor.l_dirty().diagonal();
         pivots.iter().zip(&least).all(|(pivot, least)| pivot * pivot > *least).then_some(factor)
     }
@@ -286,4 +286,26 @@ impl Part {
         let x = DVector::from_column_slice(x);
         self.squares + x.dot(&(&self.matrix * &x - &self.right * 2.0))
     }
+}
+
+/// Factorizes `A = LLᵀ` by blocks, whose products take most of the time; none if A is not positive
+/// definite.
+///
+/// ```text
+/// A₁₁ = L₁₁L₁₁ᵀ        L₂₁ᵀ = L₁₁⁻¹A₂₁ᵀ        A₂₂ − L₂₁L₂₁ᵀ is next
+/// ```
+pub(super) fn cholesky(mut matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
+    let size = matrix.nrows();
+    for start in (0..size).step_by(TOGETHER) {
+        let own = TOGETHER.min(size - start);
+        let (end, left) = (start + own, size - start - own);
+        let l = matrix.view((start, start), (own, own)).into_owned().cholesky()?.unpack();
+        let mut below = matrix.view((end, start), (left, own)).transpose();
+        l.solve_lower_triangular_unchecked_mut(&mut below);
+        let rows = below.transpose();
+        matrix.view_mut((end, end), (left, left)).gemm(-1.0, &rows, &below, 1.0);
+        matrix.view_mut((start, start), (own, own)).copy_from(&l);
+        matrix.view_mut((end, start), (left, own)).copy_from(&rows);
+    }
+    Some(Cholesky::pack_dirty(matrix))
 }

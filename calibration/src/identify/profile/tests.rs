@@ -219,3 +219,20 @@ fn profiles_do_not_take_the_place_of_constants() {
     println!("standard deviations of constants at most {largest:.3} times those without profiles");
     assert!(largest < 4.0, "{largest}");
 }
+
+/// Factors by blocks solve what a matrix of 150 columns says, and refuse one with a negative
+/// direction.
+#[test]
+fn blocks_factorize() {
+    use nalgebra::{DMatrix, DVector};
+    for size in [1, 64, 65, 150] {
+        let value = |i: usize, j: usize| ((i * 7 + j * 13) as f64 * 0.71 + (i * j) as f64 * 1.3).sin();
+        let rows = DMatrix::from_fn(2 * size, size, value);
+        let mut matrix = rows.tr_mul(&rows) + DMatrix::identity(size, size);
+        let x = DVector::from_fn(size, |i, _| (i as f64).cos());
+        let found = super::normal::cholesky(matrix.clone()).unwrap().solve(&(&matrix * &x));
+        assert!((found - x).amax() < 1e-10, "{size}");
+        matrix[(size - 1, size - 1)] *= -1.0;
+        assert!(super::normal::cholesky(matrix).is_none());
+    }
+}

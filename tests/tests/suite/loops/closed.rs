@@ -6,7 +6,7 @@ use abbe::{Error, Manipulator, Pose, displacement};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_tests::mechanisms::Mechanism;
-use abbe_tests::sample_size;
+use abbe_tests::{sample_size, thorough};
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -180,11 +180,11 @@ impl Answers {
     }
 }
 
-/// Commands of random four-bar linkages, within two turns: 120,000 in a thorough run.
+/// Commands of random four-bar linkages, within two turns: 560,000 in a thorough run.
 #[test]
 fn four_bars_close_in_the_mode_of_home_or_are_refused() {
     let (mut random, mut answers) = (Xoshiro256PlusPlus::seed_from_u64(1), Answers::default());
-    for _ in 0..sample_size(300) {
+    for _ in 0..if thorough() { 1400 } else { 30 } {
         let machine = FourBar::new(&mut random);
         let interpreter = machine.interpreter();
         for _ in 0..400 {
