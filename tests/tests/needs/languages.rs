@@ -37,7 +37,7 @@ pub(crate) const TESTS: Tests = &[
 
 /// Largest difference relative to the largest number of a result.
 const EQUAL: f64 = 1e-13;
-/// That of random loops, which may be nearly singular.
+/// Largest relative difference of random loops, which may be nearly singular.
 const NEARLY_EQUAL: f64 = 1e-9;
 
 /// Checks all robots in a language, at this number of configurations unless `CONFIGURATIONS` is
