@@ -14,12 +14,8 @@ fn rows(seed: u64, count: usize, visits: usize, error: impl Fn(f64, &[f64]) -> [
         (0..count / visits).map(|_| [(); 2].map(|()| random.random_range(-1.0..1.0))).collect();
     let row = |i: usize| {
         let configuration = i % places.len();
-        let row = Observation::new(
-            i as u64,
-            places[configuration].to_vec(),
-            Vec::new(),
-            Measurement::Points(vec![].into()),
-        );
+        let row =
+            Observation::new(i as u64, places[configuration], Vec::new(), Measurement::Points(vec![].into()));
         Observation { configuration: configuration as u32, ..row }
     };
     let rows: Vec<Observation> = (0..count).map(row).collect();

@@ -27,7 +27,7 @@ fn numbered(line: u64, q: &[f64], points: usize) -> Observation {
         0 => Measurement::Pose(Box::new(Pose::IDENTITY)),
         _ => Measurement::Points(vec![Some([0.0; 3]); points].into()),
     };
-    Observation::new(line, q.to_vec(), Vec::new(), measured)
+    Observation::new(line, q, Vec::new(), measured)
 }
 
 /// Returns samples of the joints in `moved`.
