@@ -22,8 +22,9 @@ use super::partial::{Joint, Partial};
 use crate::chain::lower_pairs;
 use crate::graph::{Frame, Graph, Node, Vector};
 
-/// Relative difference of places and directions that count as equal: targets have rounding errors.
-const CLOSED: f64 = 1e-9;
+/// Relative difference of places and directions that count as equal: targets have rounding errors,
+/// in single precision as well.
+const CLOSED: f64 = 1e-6;
 /// Freedoms of a body in space.
 const FREEDOMS: usize = 6;
 

@@ -357,8 +357,9 @@ pub(crate) fn self_tests() -> Result<(), Missing> {
     tool("gcc", "")?;
     tool("clang", "")?;
     let fused = ["gcc", "-O2", "-ffp-contract=fast", "-march=native"];
-    for shipped in SHIPPED.iter().filter(|shipped| is_tested(shipped.name)) {
-        let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec).unwrap();
+    let shipped = SHIPPED.iter().filter(|shipped| is_tested(shipped.name));
+    let shipped = shipped.map(|one| Spec::parse(&format!("{}.toml", one.name), one.spec).unwrap());
+    for spec in shipped.chain([Spec::read(specs::path("planar")).unwrap()]) {
         for real in Real::ALL {
             let folder = tempfile::tempdir().unwrap();
             write(folder.path(), &spec, real);
