@@ -30,8 +30,8 @@ impl Export {
         let Self { machine: Machine { spec, origin, .. }, format, samples, seed } = self;
         if !matches!(format, Format::UrdfTree | Format::LinuxCncGenhexkins) {
             let instead = format!(
-                "`{TO_URDF}` writes frames and loops, `{TO_LINUXCNC_GENHEXKINS}` six legs; `abbe compensate` corrects commands, and \
-                 `abbe generate` writes code that corrects them in the controller"
+                "use `abbe compensate` for corrected commands, or `abbe generate` for code that corrects them in the \
+                 controller; `{TO_URDF}` writes frames and loops, `{TO_LINUXCNC_GENHEXKINS}` six legs"
             );
             self.machine.require_chain("this format cannot hold the errors of this machine", &instead)?;
         }
