@@ -1,6 +1,10 @@
 //! [`Scalar`] for `f64` and `f32`.
 
 use crate::sin_cos;
+#[cfg(not(target_arch = "x86_64"))]
+use crate::sin_cos::array::Array as Pair;
+#[cfg(target_arch = "x86_64")]
+use crate::x86::Sse2 as Pair;
 use crate::{LookupTable, Scalar};
 
 macro_rules! scalar {
@@ -17,7 +21,7 @@ macro_rules! scalar {
             $(
                 #[inline(always)]
                 fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-                    sin_cos::array::$each(angles)
+                    sin_cos::$each::<Pair, N>(angles)
                 }
             )?
             $(

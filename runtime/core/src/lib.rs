@@ -30,7 +30,7 @@ mod sin_cos;
 mod source;
 #[cfg(feature = "lanes")]
 mod twist;
-#[cfg(all(feature = "lanes", target_arch = "x86_64"))]
+#[cfg(target_arch = "x86_64")]
 mod x86;
 
 #[cfg(feature = "lanes")]

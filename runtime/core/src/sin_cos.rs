@@ -5,6 +5,7 @@
 //! fdlibm (error below 2⁻⁵⁸), then the quadrant `n`. The error is below 1.7 ulp for `|x| ≤`
 //! [`REACH`].
 
+#[cfg(any(test, not(target_arch = "x86_64")))]
 pub(crate) mod array;
 
 use core::ops::{Add, Mul, Sub};
@@ -66,6 +67,14 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     fn odd(self) -> Self;
     /// Returns the bits shifted left.
     fn shifted<const PLACES: u32>(self) -> Self;
+}
+
+/// Two numbers in one register.
+pub(crate) trait Pair: Real {
+    /// Combines two numbers.
+    fn new(numbers: [f64; 2]) -> Self;
+    /// Returns the two numbers.
+    fn numbers(self) -> [f64; 2];
 }
 
 impl Real for f64 {
@@ -133,6 +142,29 @@ pub(crate) fn scalar(x: f64) -> (f64, f64) {
     } else {
         beyond(x)
     }
+}
+
+/// Returns sine and cosine of several `f64`, with the bits of [`scalar`]. Pairs of angles share
+/// instructions.
+#[inline(always)]
+pub(crate) fn each<P: Pair, const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
+    let mut all = true;
+    for x in &angles {
+        all &= x.abs() <= REACH;
+    }
+    if !all {
+        return angles.map(scalar);
+    }
+    let mut results = [(0.0, 0.0); N];
+    for i in (0..N).step_by(2) {
+        // Two at a time; the last angle twice if the count is odd.
+        let j = (i + 1).min(N - 1);
+        let (sines, cosines) = near(P::new([angles[i], angles[j]]));
+        let (sines, cosines) = (sines.numbers(), cosines.numbers());
+        results[j] = (sines[1], cosines[1]);
+        results[i] = (sines[0], cosines[0]);
+    }
+    results
 }
 
 /// Returns sine and cosine of any `f64` from the platform's library, or from `libm` without `std`.

@@ -1,28 +1,41 @@
-//! AVX2 and AVX-512 registers: the only `unsafe` code of the project.
+//! SSE2, AVX2 and AVX-512 registers: the only `unsafe` code of the project.
 //!
-//! An instruction may execute only on a CPU that has it. The two types are named only in
-//! `lanes::InstructionSet::run`, which has detected the CPU's features; a kernel receives them as a
-//! type parameter and cannot exist without them. Values pass in registers. Memory is only read, and
-//! only the rows passed to [`Register::columns`], which are borrowed arrays of four: no address is
-//! computed from an index.
+//! An instruction may execute only on a CPU that has it. Every x86-64 CPU has SSE2, which evaluates
+//! sines and cosines in pairs. The other two types are named only in `lanes::InstructionSet::run`,
+//! which has detected the CPU's features; a kernel receives them as a type parameter and cannot
+//! exist without them. Values pass in registers. Memory is only read, and only the rows passed to
+//! [`Register::columns`], which are borrowed arrays of four: no address is computed from an index.
 #![allow(unsafe_code)]
 
 use core::arch::x86_64::*;
+use core::ops::{Add, Mul, Sub};
 
+#[cfg(feature = "lanes")]
 use bytemuck::{Pod, Zeroable};
 
+#[cfg(feature = "lanes")]
 use crate::lanes::{Register, by_array};
+use crate::sin_cos::{Pair, Real};
+
+/// Two lanes: SSE2.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "lanes", derive(Pod, Zeroable))]
+#[repr(transparent)]
+pub(crate) struct Sse2(__m128d);
 
 /// Four lanes: AVX2 and FMA.
+#[cfg(feature = "lanes")]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
 pub(crate) struct Avx2(__m256d);
 
 /// Eight lanes: AVX-512 F and DQ.
+#[cfg(feature = "lanes")]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
 pub(crate) struct Avx512(__m512d);
 
+#[cfg(feature = "lanes")]
 macro_rules! instructions {
     ($($name:ident($($argument:ident),+) $instruction:expr;)+) => {$(
         #[inline(always)]
@@ -33,6 +46,121 @@ macro_rules! instructions {
     )+};
 }
 
+macro_rules! operator {
+    ($trait:ident::$name:ident $instruction:ident) => {
+        impl $trait for Sse2 {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                // SAFETY: the CPU has the instruction, see the module documentation.
+                Self(unsafe { $instruction(self.0, other.0) })
+            }
+        }
+    };
+}
+
+operator!(Add::add _mm_add_pd);
+operator!(Sub::sub _mm_sub_pd);
+operator!(Mul::mul _mm_mul_pd);
+
+impl Real for Sse2 {
+    const FUSED: bool = false;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self::new([value; 2])
+    }
+
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    #[inline(always)]
+    fn times_from(self, b: Self, c: Self) -> Self {
+        c - self * b
+    }
+
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        // SAFETY: the CPU has the instruction, see the module documentation.
+        Self(unsafe { _mm_xor_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        // SAFETY: the CPU has the instruction, see the module documentation.
+        Self(unsafe { _mm_and_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn odd(self) -> Self {
+        // SAFETY: the CPU has the instructions, see the module documentation.
+        Self(unsafe {
+            let lowest = _mm_and_si128(_mm_castpd_si128(self.0), _mm_set1_epi64x(1));
+            _mm_castsi128_pd(_mm_sub_epi64(_mm_setzero_si128(), lowest))
+        })
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(self) -> Self {
+        // SAFETY: the CPU has the instruction, see the module documentation.
+        Self(unsafe {
+            let places = _mm_cvtsi32_si128(PLACES as i32);
+            _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(self.0), places))
+        })
+    }
+}
+
+impl Pair for Sse2 {
+    #[inline(always)]
+    fn new([first, second]: [f64; 2]) -> Self {
+        // SAFETY: the CPU has the instruction, see the module documentation.
+        Self(unsafe { _mm_set_pd(second, first) })
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f64; 2] {
+        // SAFETY: the CPU has the instructions, see the module documentation.
+        unsafe { [_mm_cvtsd_f64(self.0), _mm_cvtsd_f64(_mm_unpackhi_pd(self.0, self.0))] }
+    }
+}
+
+#[cfg(feature = "lanes")]
+impl Register for Sse2 {
+    by_array!(2, fused: false);
+
+    instructions! {
+        add(a, b) _mm_add_pd(a, b);
+        sub(a, b) _mm_sub_pd(a, b);
+        mul(a, b) _mm_mul_pd(a, b);
+        div(a, b) _mm_div_pd(a, b);
+        mul_add(a, b, c) _mm_add_pd(_mm_mul_pd(a, b), c);
+        mul_sub(a, b, c) _mm_sub_pd(_mm_mul_pd(a, b), c);
+        neg_mul_add(a, b, c) _mm_sub_pd(c, _mm_mul_pd(a, b));
+        sqrt(a) _mm_sqrt_pd(a);
+        min(a, b) _mm_min_pd(a, b);
+        max(a, b) _mm_max_pd(a, b);
+        xor(a, b) _mm_xor_pd(a, b);
+        and(a, b) _mm_and_pd(a, b);
+        or(a, b) _mm_or_pd(a, b);
+        and_not(a, b) _mm_andnot_pd(b, a);
+        more_than(a, b) _mm_cmpgt_pd(a, b);
+    }
+
+    #[inline(always)]
+    fn odd(a: Self) -> Self {
+        Real::odd(a)
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(a: Self) -> Self {
+        Real::shifted::<PLACES>(a)
+    }
+}
+
+#[cfg(feature = "lanes")]
 impl Register for Avx2 {
     by_array!(4, fused: true);
 
@@ -83,6 +211,7 @@ impl Register for Avx2 {
     }
 }
 
+#[cfg(feature = "lanes")]
 impl Register for Avx512 {
     by_array!(8, fused: true);
 
@@ -136,6 +265,7 @@ impl Register for Avx512 {
 
 /// Returns the row of each lane. Uses functions and a loop instead of closures, which could be
 /// compiled without the instruction set.
+#[cfg(feature = "lanes")]
 #[inline(always)]
 fn rows<'r, const LANES: usize>(row: impl Fn(usize) -> &'r [f64; 4]) -> [&'r [f64; 4]; LANES] {
     let mut rows = [&[0.0; 4]; LANES];
@@ -146,6 +276,7 @@ fn rows<'r, const LANES: usize>(row: impl Fn(usize) -> &'r [f64; 4]) -> [&'r [f6
 }
 
 /// Returns the first halves of two rows in one register, and the second halves in another.
+#[cfg(feature = "lanes")]
 #[inline(always)]
 fn pairs(low: &[f64; 4], high: &[f64; 4]) -> [__m256d; 2] {
     // SAFETY: the CPU has the instructions, see the module documentation; the loads read numbers 0
@@ -161,6 +292,7 @@ fn pairs(low: &[f64; 4], high: &[f64; 4]) -> [__m256d; 2] {
 }
 
 /// Returns two rows in one register.
+#[cfg(feature = "lanes")]
 #[inline(always)]
 fn two(low: &[f64; 4], high: &[f64; 4]) -> __m512d {
     // SAFETY: the CPU has the instructions, see the module documentation; the loads read the four

@@ -8,6 +8,12 @@ use pulp::x86::{V3, V4};
 
 use super::Register;
 
+/// Register with two lanes that every machine of this architecture has.
+#[cfg(target_arch = "x86_64")]
+type Two = crate::x86::Sse2;
+#[cfg(not(target_arch = "x86_64"))]
+type Two = [f64; 2];
+
 /// Computation on lanes, compiled for every instruction set.
 ///
 /// Everything it calls must be `#[inline(always)]`: other functions are compiled for the baseline
@@ -85,7 +91,7 @@ impl InstructionSet {
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
-            Level::Baseline => kernel.run::<[f64; 2]>(),
+            Level::Baseline => kernel.run::<Two>(),
             #[cfg(target_arch = "x86_64")]
             Level::Avx2(v3) => v3.vectorize(With::<K, crate::x86::Avx2>::new(kernel)),
             #[cfg(target_arch = "x86_64")]

@@ -43,6 +43,7 @@ mod arc_tangent;
 mod functions;
 mod instruction_set;
 mod one_by_one;
+#[cfg(any(test, not(target_arch = "x86_64")))]
 mod portable;
 mod register;
 mod rows;

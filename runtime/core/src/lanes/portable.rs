@@ -1,5 +1,5 @@
 //! Two lanes in an array, for machines without a register type here: the compiler finds their
-//! instructions for pairs (SSE2, NEON).
+//! instructions for pairs (NEON).
 
 use super::Register;
 use super::register::by_array;

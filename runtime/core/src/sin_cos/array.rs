@@ -1,34 +1,13 @@
-//! Two numbers in an array: the compiler finds the instructions of the machine for pairs.
+//! Two numbers in an array, for machines without a register type here: the compiler finds their
+//! instructions for pairs.
 
 use core::ops::{Add, Mul, Sub};
 
-use super::{REACH, Real, near, scalar};
+use super::{Pair, Real};
 
 /// Two numbers.
 #[derive(Clone, Copy)]
-struct Array([f64; 2]);
-
-/// Returns sine and cosine of several `f64`, with the bits of [`scalar`]. Pairs of angles share
-/// instructions.
-#[inline(always)]
-pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
-    let mut all = true;
-    for x in &angles {
-        all &= x.abs() <= REACH;
-    }
-    if !all {
-        return angles.map(scalar);
-    }
-    let mut results = [(0.0, 0.0); N];
-    for i in (0..N).step_by(2) {
-        // Two at a time; the last angle twice if the count is odd.
-        let j = (i + 1).min(N - 1);
-        let (Array(sines), Array(cosines)) = near(Array([angles[i], angles[j]]));
-        results[j] = (sines[1], cosines[1]);
-        results[i] = (sines[0], cosines[0]);
-    }
-    results
-}
+pub(crate) struct Array([f64; 2]);
 
 impl Array {
     #[inline(always)]
@@ -61,6 +40,18 @@ impl Mul for Array {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.zip(other, |a, b| a * b)
+    }
+}
+
+impl Pair for Array {
+    #[inline(always)]
+    fn new(numbers: [f64; 2]) -> Self {
+        Self(numbers)
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f64; 2] {
+        self.0
     }
 }
 
