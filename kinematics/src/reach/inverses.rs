@@ -1,5 +1,5 @@
-//! All solutions of inverse kinematics: in closed form where the structure permits,
-//! otherwise by many searches.
+//! All solutions of inverse kinematics: in closed form where the structure permits, otherwise by
+//! many searches.
 
 use core::f64::consts::{PI, TAU};
 
@@ -28,8 +28,8 @@ const STEPS: usize = 4;
 /// platforms on legs have a closed form as a function of their own ([`Manipulator::inverse`]). Of
 /// all others the solutions are those of many searches. Every solution is verified, and where
 /// needed improved, by the manipulator itself: the loops of a platform close there in the assembly
-/// mode of home. Errors of a calibration, which tilt and shift axes, leave no closed
-/// form.
+/// mode of home. Errors of a calibration, which tilt and shift the axes of an arm, leave no closed
+/// form of it.
 ///
 /// Lengths are in the manipulator's unit, angles in rad; poses are those of the tool point in
 /// `F_0`.

@@ -96,7 +96,7 @@ pub(super) fn line(g: &mut Graph, before: &Frame, factor: &Factor, own: usize, k
     Line { kind, along: [nodes[0], nodes[1], nodes[2]], at: [nodes[3], nodes[4], nodes[5]] }
 }
 
-pub(super) fn depends(factor: &Factor, own: usize) -> bool {
+fn depends(factor: &Factor, own: usize) -> bool {
     factor.expressions().iter().any(|amount| amount.symbols().any(|symbol| symbol == Symbol::Variable(own)))
 }
 
