@@ -62,10 +62,14 @@ pub fn platform(body: &Body, seed: u64) -> (String, u32) {
         let (outer, inner, arm, tilt) = (600.0 + number(50.0), 250.0 + number(50.0), 120.0, number(0.6));
         let above = if is_plane { 0.0 } else { number(30.0) };
         let drive = random.random_range(0..3);
+        // Drives turn and move either way, and either end of a leg is named first.
+        let sign = ["", "-"][random.random_range(0..2)];
+        let ends = [format!("j{leg}"), format!("b{leg}")];
+        let [first, second] = [0, 1].map(|i| &ends[(i + usize::from(sign == "-")) % 2]);
         let (kind, motion, reach) = match drive {
             0 => ("prismatic", String::new(), 0.0),
-            1 => ("prismatic", format!("{}(q{leg})", if is_plane { "Tx" } else { "Tz" }), 0.0),
-            _ => ("revolute", format!("{}(q{leg}) Tx({arm})", if is_plane { "Rz" } else { "Ry" }), arm),
+            1 => ("prismatic", format!("{}({sign}q{leg})", if is_plane { "Tx" } else { "Tz" }), 0.0),
+            _ => ("revolute", format!("{}({sign}q{leg}) Tx({arm})", if is_plane { "Rz" } else { "Ry" }), arm),
         };
         let (x, y) = (outer + reach * tilt.cos(), reach * tilt.sin());
         let foot = [x * a.cos() - y * a.sin(), x * a.sin() + y * a.cos(), 0.0];
@@ -75,7 +79,7 @@ pub fn platform(body: &Body, seed: u64) -> (String, u32) {
         let variable =
             format!("variable = {{ name = \"q{leg}\", kind = \"{kind}\", limits = [{lower}, {upper}] }}\n");
         let [of_frame, of_leg, more] = if drive == 0 {
-            ["", &*variable, &*format!(" + q{leg}")]
+            ["", &*variable, &*format!(" {} q{leg}", if sign.is_empty() { '+' } else { '-' })]
         } else {
             branches += 1;
             [&*variable, "", ""]
@@ -86,7 +90,7 @@ pub fn platform(body: &Body, seed: u64) -> (String, u32) {
              transform = \"Rz({a:?}) Tx({outer:?}) Rz({tilt:?}) {motion}\"\n\
              [[frame]]\nname = \"j{leg}\"\nparent = \"{last}\"\n\
              transform = \"Rz({b:?}) Tx({inner:?}) Tz({above:?})\"\n\
-             [[loop]]\nname = \"leg {leg}\"\nframes = [\"j{leg}\", \"b{leg}\"]\ncloses = \"distance\"\n\
+             [[loop]]\nname = \"leg {leg}\"\nframes = [\"{first}\", \"{second}\"]\ncloses = \"distance\"\n\
              length = \"{length:?} mm{more}\"\n{of_leg}"
         );
     }
