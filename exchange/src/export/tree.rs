@@ -10,11 +10,7 @@ use super::real_machine::RealMachine;
 
 /// Returns `true` if joint variables, or passive ones, move a transform.
 pub(crate) fn moves(factors: &[Factor]) -> bool {
-    factors.iter().flat_map(Factor::expressions).flat_map(Expression::symbols).any(is_joint)
-}
-
-fn is_joint(symbol: Symbol) -> bool {
-    matches!(symbol, Symbol::Variable(_) | Symbol::Passive(_))
+    factors.iter().flat_map(Factor::expressions).flat_map(Expression::symbols).any(Symbol::is_joint)
 }
 
 impl RealMachine {
@@ -36,7 +32,7 @@ impl RealMachine {
         let mut graph = Graph::with_tables(&self.spec.tables);
         let node = graph.lower(amount);
         let mut own = None;
-        for symbol in amount.symbols().filter(|symbol| is_joint(*symbol)) {
+        for symbol in amount.symbols().filter(|symbol| symbol.is_joint()) {
             // Nodes read passive variables as local symbols.
             let slope =
                 graph.diff(node, if let Symbol::Passive(i) = symbol { Symbol::Local(i) } else { symbol });

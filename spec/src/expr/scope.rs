@@ -29,6 +29,13 @@ pub enum Symbol {
     Local(usize),
 }
 
+impl Symbol {
+    /// Returns `true` for joint variables, commanded or passive.
+    pub fn is_joint(self) -> bool {
+        matches!(self, Self::Variable(_) | Self::Passive(_))
+    }
+}
+
 /// A declared name.
 #[derive(Clone, Debug)]
 pub struct Name {

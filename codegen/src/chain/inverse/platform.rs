@@ -291,9 +291,8 @@ fn joints(factors: &[&Factor]) -> Vec<Symbol> {
 
 /// Returns the joint variables and passive variables of expressions, each once.
 fn joints_of<'e>(expressions: impl IntoIterator<Item = &'e Expression>) -> Vec<Symbol> {
-    let is_joint = |symbol: &Symbol| matches!(symbol, Symbol::Variable(_) | Symbol::Passive(_));
-    let mut found: Vec<Symbol> =
-        expressions.into_iter().flat_map(Expression::symbols).filter(is_joint).collect();
+    let symbols = expressions.into_iter().flat_map(Expression::symbols);
+    let mut found: Vec<Symbol> = symbols.filter(|symbol| symbol.is_joint()).collect();
     found.sort_unstable();
     found.dedup();
     found

@@ -20,7 +20,8 @@ use crate::export::tree::moves;
 use crate::export::{ExportReport, ExportedFile, RealMachine};
 use crate::placement::roll_pitch_yaw;
 
-/// Limit of a joint without limits, and effort and velocity: URDF requires some.
+/// Limit of a joint with one limit or of a slide without, and effort and velocity: URDF requires
+/// some.
 const UNLIMITED: f64 = 1e6;
 
 /// Writes the frames of a machine as links and joints, and its loops as tables of TOML, in m and
@@ -29,7 +30,7 @@ const UNLIMITED: f64 = 1e6;
 /// # Errors
 ///
 /// A frame is not moved by its own variable alone, as by a revolute or prismatic joint, the length
-/// of a leg is more than a constant and a variable, or two links would have the same name.
+/// of a leg is more than a constant and a variable, or a name does not fit into a URDF.
 pub fn write_tree(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let spec = &machine.spec;
     let (metres, name) = (spec.length.in_metres(), &spec.name);
@@ -38,7 +39,7 @@ pub fn write_tree(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
                     length of a constant and a variable; `abbe generate` writes code for any machine";
         mistake::with_help(&machine.origin, format!("\"{what}\" {reason}"), help)
     };
-    let mut text = format!("<robot name=\"{name}\">\n  <link name=\"base\"/>\n");
+    let mut text = format!("<robot name=\"{name}\">\n  <link name=\"{}\"/>\n", link_name(machine, None));
     let mut join = |[name, kind, parent, link]: [&str; 4], origin: &Pose, rest: &str| {
         let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
         let [name, parent, link] = [name, parent, link].map(escaped);
@@ -51,10 +52,15 @@ pub fn write_tree(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     };
     for (i, frame) in spec.frames.iter().enumerate() {
         let (mut parent, mut origin) = (link_name(machine, frame.parent), Pose::IDENTITY);
-        let carrier = format!("{} joint", frame.name);
+        let carrier = unused(machine, format!("{} joint", frame.name));
         for factor in frame.factors.chunks(1) {
             if moves(factor) {
-                let immobile = || refused(&frame.name, "does not move as a joint of its own variable");
+                let immobile = || match factor {
+                    [Factor::Matrix(_)] => {
+                        refused(&frame.name, "is a matrix: give it as `transform` or `dh`")
+                    }
+                    _ => refused(&frame.name, "does not move as a joint of its own variable"),
+                };
                 let (axis, symbol) = axis(machine, &factor[0]).ok_or_else(immobile)?;
                 let variable = match symbol {
                     Symbol::Variable(i) if frame.variable == Some(i) => &spec.variables[i],
@@ -62,29 +68,35 @@ pub fn write_tree(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
                     _ => return Err(immobile()),
                 };
                 let is_prismatic = variable.kind == VariableKind::Prismatic;
-                let (kind, unit) = if is_prismatic { ("prismatic", metres) } else { ("revolute", 1.0) };
+                let is_free = !is_prismatic && variable.limits.iter().all(|limit| limit.is_infinite());
+                let (kind, unit) = match is_prismatic {
+                    true => ("prismatic", metres),
+                    false => (if is_free { "continuous" } else { "revolute" }, 1.0),
+                };
                 let [lower, upper] = variable.limits.map(|limit| (limit * unit).clamp(-UNLIMITED, UNLIMITED));
+                let ends =
+                    if is_free { String::new() } else { format!("lower=\"{lower}\" upper=\"{upper}\" ") };
                 let rest = format!(
-                    "    <axis xyz=\"{}\"/>\n    <limit lower=\"{lower}\" upper=\"{upper}\" \
-                     effort=\"{UNLIMITED}\" velocity=\"{UNLIMITED}\"/>\n",
+                    "    <axis xyz=\"{}\"/>\n    <limit {ends}effort=\"{UNLIMITED}\" velocity=\"{UNLIMITED}\"/>\n",
                     three(axis)
                 );
-                join([&variable.name, kind, parent, &carrier], &origin, &rest);
-                (parent, origin) = (&carrier, Pose::IDENTITY);
+                join([&variable.name, kind, &parent, &carrier], &origin, &rest);
+                (parent, origin) = (carrier.clone(), Pose::IDENTITY);
             }
             origin = origin.then(&machine.pose_at_zero(factor));
         }
         let fixed = format!("{} fixed", frame.name);
-        join([&fixed, "fixed", parent, &frame.name], &origin.then(&machine.mean_error(i)), "");
+        join([&fixed, "fixed", &parent, &frame.name], &origin.then(&machine.mean_error(i)), "");
     }
     if moves(&spec.tool) {
         return Err(refused("tool", "moves in its frame"));
     }
     let carrier = link_name(machine, Some(spec.tool_frame));
-    join(["tool fixed", "fixed", carrier, "tool"], &machine.pose_at_zero(&spec.tool), "");
+    let tool = unused(machine, "tool".to_owned());
+    join([&format!("{tool} fixed"), "fixed", &carrier, &tool], &machine.pose_at_zero(&spec.tool), "");
     let mut files = vec![ExportedFile { name: format!("{name}.urdf"), text: text + "</robot>\n" }];
     let document = Document::new(&files[0].name, files[0].text.as_str());
-    let read = NominalChain::read(&document, &Ends { base: None, tip: Some("tool".to_owned()) });
+    let read = NominalChain::read(&document, &Ends { base: None, tip: Some(tool) });
     document.finish(read)?;
     let too_long = |closed: &Loop| refused(&closed.name, "is longer than a constant and a variable");
     let tables = spec.loops.iter().map(|closed| table(machine, closed).ok_or_else(|| too_long(closed)));
@@ -101,9 +113,17 @@ pub fn write_tree(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     Ok(report)
 }
 
-/// Returns the name of the link of a frame.
-fn link_name(machine: &RealMachine, frame: Option<usize>) -> &str {
-    frame.map_or("base", |frame| &machine.spec.frames[frame].name)
+/// Returns the name of a link that is no frame, other than those of frames.
+fn unused(machine: &RealMachine, mut name: String) -> String {
+    while machine.spec.frames.iter().any(|frame| frame.name == name) {
+        name.push('_');
+    }
+    name
+}
+
+/// Returns the name of the link of a frame, or of `F_0`.
+fn link_name(machine: &RealMachine, frame: Option<usize>) -> String {
+    frame.map_or_else(|| unused(machine, "base".to_owned()), |frame| machine.spec.frames[frame].name.clone())
 }
 
 /// Returns the axis of a factor that moves by one variable, or against it, and the variable.
@@ -119,7 +139,7 @@ fn axis(machine: &RealMachine, factor: &Factor) -> Option<([f64; 3], Symbol)> {
 /// Returns the table of a loop; `None` for a length that is more than a constant and a variable.
 fn table(machine: &RealMachine, closed: &Loop) -> Option<String> {
     let spec = &machine.spec;
-    let link = |frame| quoted(link_name(machine, frame));
+    let link = |frame| quoted(&link_name(machine, frame));
     let [first, second] = closed.frames;
     let mut text = format!("\n[[loop]]\nname = {}\n", quoted(&closed.name));
     text += &format!("links = [{}, {}]\n", link(first), link(second));

@@ -127,7 +127,7 @@ impl Check<'_> {
         if let Some(value) = expression.constant() {
             return Some((value, String::new()));
         }
-        if expression.symbols().any(|symbol| matches!(symbol, Symbol::Variable(_) | Symbol::Passive(_))) {
+        if expression.symbols().any(Symbol::is_joint) {
             return None;
         }
         let at = |changed: Option<(usize, f64)>| {

@@ -1,5 +1,5 @@
-//! Machines with closed loops: `genhexkins` covers six legs for LinuxCNC, `frames` their frames as a
-//! URDF with a file of the loops.
+//! Machines with closed loops: `genhexkins` covers six legs for LinuxCNC, `frames` their frames as
+//! a URDF with a file of the loops.
 
 mod frames;
 mod genhexkins;
