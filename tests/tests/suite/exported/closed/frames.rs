@@ -290,6 +290,17 @@ fn shipped_machines_have_urdfs() {
     }
 }
 
+/// The page shows a loop of the file.
+#[test]
+fn the_page_has_a_loop_of_the_shipped_hexapod() {
+    let text = shipped("hexapod").replace("value = \"2 K\", range = [\"-5 K\", \"5 K\"]", "value = \"0 K\"");
+    let job = Export { machine: machine(&text), format: Format::UrdfTree, samples: 5, seed: 0 };
+    let report = job.run(&mut ()).unwrap();
+    let page = include_str!("../../../../../docs/export.md");
+    let shown = page.split("```").find(|block| block.starts_with("text\n[[loop]]")).unwrap();
+    assert!(report.files[1].text.contains(&shown["text".len()..]), "{}", report.files[1].text);
+}
+
 #[test]
 fn what_a_urdf_cannot_hold_is_refused() {
     let bar = closed_machines::FOUR_BAR;
