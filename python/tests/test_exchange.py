@@ -197,7 +197,10 @@ def test_what_is_exported(tmp_path):
     found = abbe.load(text=nominal.text + FOUND)
     report = found.export("urdf", urdf=cell, tip="tool")
     calibrated = abbe.import_urdf(text=report.files[0].text, tip="tool").load()
+    # Without a file of the robot, from the frames alone.
+    frames = abbe.import_urdf(text=found.export("urdf").files[0].text).load()
     q = np.random.default_rng(2).uniform([0, -2], [0.8, 2], (50, 2))
+    assert np.abs(frames.pose(q) - found.real_pose(q)).max() < 1e-9
     assert np.abs(calibrated.pose(q) - found.real_pose(q)).max() < 1e-9 < 1e-4 < np.abs(nominal.pose(q) - found.real_pose(q)).max()
 
 
@@ -229,6 +232,7 @@ def test_mistakes(tmp_path):
         lambda: ur5.doctor({"q1": q[:, 0]}),
         lambda: ur5.export("urdf", urdf=tmp_path / "nowhere.urdf"),
         lambda: ur5.export("isg-csv"),
+        lambda: abbe.load("puma560").export("urdf"),
     ]:
         with pytest.raises(abbe.SpecError) as caught:
             call()
@@ -248,7 +252,6 @@ def test_mistakes(tmp_path):
         lambda: ur5.doctor(q, ur5.pose(q), within=-1),
         lambda: ur5.doctor(q, ur5.pose(q), within="3 kg"),
         lambda: ur5.export("step"),
-        lambda: ur5.export("urdf"),
         lambda: ur5.export("dh", urdf="robot.urdf"),
         lambda: ur5.export("dh", nodes=7),
         lambda: ur5.export("table", nodes=1),
