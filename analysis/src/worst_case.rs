@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use abbe_kinematics::sampling::norm;
+use abbe_kinematics::sampling::vectors::{add as plus, cross, dot, norm, scale as scaled};
 
 /// Relative size of the differences that make vectors in a common plane distinct.
 const DISTINCT: f64 = 1e-9;
@@ -53,22 +53,6 @@ pub fn worst_case(center: [f64; 3], vectors: &[[f64; 3]]) -> [f64; 3] {
 /// Returns what makes vector k distinct from others, times its length.
 pub(crate) fn apart(k: usize) -> [f64; 3] {
     [1.3, 2.1, 3.7].map(|step| DISTINCT * (step * (k + 1) as f64).sin())
-}
-
-fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    core::array::from_fn(|i| a[i] + b[i])
-}
-
-fn scaled(a: [f64; 3], factor: f64) -> [f64; 3] {
-    a.map(|row| factor * row)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
-    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
 #[cfg(test)]

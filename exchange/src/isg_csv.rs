@@ -17,7 +17,7 @@ use crate::export::report::unreadable;
 use crate::export::rotary_axes::{Kinematics, RotaryAxis, TabledAxis};
 use crate::export::slides::{Axes, ErrorTable, Reference, Slide, interpolated, small_motion, tool_points};
 use crate::export::{ExportReport, ExportedFile, RealMachine};
-use crate::vector::{scale, subtract};
+use abbe::analysis::sampling::vectors::{scale, subtract};
 
 /// Writes the tables, with `nodes` values of each slide.
 ///

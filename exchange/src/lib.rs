@@ -40,6 +40,5 @@ pub mod urdf;
 
 mod format;
 mod placement;
-mod vector;
 
 pub use format::{FORMATS, FileFormat, Format, FormatMismatch, Needs};

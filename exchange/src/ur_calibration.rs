@@ -6,8 +6,10 @@
 //! joint, x along the common normal with the previous joint, and `d` of a row within its joint.
 
 use abbe_spec::option::TO_URDF;
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
+use abbe::analysis::sampling::JointAxis;
 use abbe::{Manipulator, Pose};
 use abbe_spec::mistake;
 use abbe_spec::number::digits;
@@ -18,6 +20,7 @@ use crate::export::origins::{Joint, origins};
 use crate::export::report::{UNCHANGED, nominal_sign, rounded, unreadable};
 use crate::export::{ExportReport, ExportedFile, RealMachine, about_x, about_z};
 use crate::placement::{placed, roll_pitch_yaw};
+use abbe::analysis::sampling::vectors::{cross, dot, norm, scale, subtract};
 
 /// Names of the joints, and the angle from the previous axis about x in quarter turns.
 const JOINTS: [(&str, f64); 6] = [
@@ -28,6 +31,9 @@ const JOINTS: [(&str, f64); 6] = [
     ("wrist_2", 1.0),
     ("wrist_3", -1.0),
 ];
+
+/// Smallest cosine of directions that are nearly parallel.
+const PARALLEL: f64 = 0.99;
 
 /// Keys of a joint.
 const KEYS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
@@ -46,7 +52,7 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
         mistake::with_help(&machine.origin, message, help)
     };
     let table = DhTable::nominal(machine)?;
-    let frames = frames(&table);
+    let frames = near_each_other(frames(&table));
     let turning =
         table.rows.iter().filter(|row| row.variable.is_some() && !row.prismatic && !row.reversed).count();
     if turning != JOINTS.len() || table.rows.len() != JOINTS.len() {
@@ -56,8 +62,9 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let mut before = Pose::IDENTITY;
     for ((name, quarters), (frame, i)) in JOINTS.iter().zip(frames.iter().zip(0..)) {
         let origin = before.inverse().then(frame);
-        let expected = about_x(quarters * std::f64::consts::FRAC_PI_2, 0.0);
-        let is_parallel = |k: usize| (0..3).map(|i| origin.0[k][i] * expected.0[k][i]).sum::<f64>() > 0.99;
+        let expected = about_x(quarters * FRAC_PI_2, 0.0);
+        let is_parallel =
+            |k: usize| (0..3).map(|i| origin.0[k][i] * expected.0[k][i]).sum::<f64>() > PARALLEL;
         if !(0..3).all(is_parallel) {
             return Err(refused(format!("the axes of the joint {name} are not placed as in a UR arm")));
         }
@@ -110,6 +117,30 @@ fn frames(table: &DhTable) -> Vec<Pose> {
             DhConvention::Modified => pose.then(&about_x(alpha, a)).then(&about_z(theta, d)),
         });
         pose = after;
+    }
+    frames
+}
+
+/// Takes the frame of a joint whose next axis is nearly parallel near the frame before: its origin
+/// in the plane through that one, and its x axis along that expected.
+///
+/// The common normal of such axes may be far away, in any direction; about and along its axis the
+/// frame of a joint may be anywhere.
+fn near_each_other(mut frames: Vec<Pose>) -> Vec<Pose> {
+    let mut before = Pose::IDENTITY;
+    for i in 0..frames.len() {
+        let Pose([_, _, z, p]) = frames[i];
+        if frames.get(i + 1).is_some_and(|next| dot(next.0[2], z).abs() > PARALLEL) {
+            let quarters = JOINTS.get(i).map_or(0.0, |(_, quarters)| *quarters);
+            let expected = before.then(&about_x(quarters * FRAC_PI_2, 0.0)).0[0];
+            let x = subtract(expected, scale(z, dot(z, expected)));
+            if norm(x) > PARALLEL {
+                let x = scale(x, 1.0 / norm(x));
+                let origin = JointAxis { direction: z, point: Some(p) }.nearest(before.position());
+                frames[i] = Pose([x, cross(z, x), z, origin]);
+            }
+        }
+        before = frames[i];
     }
     frames
 }

@@ -9,7 +9,7 @@ use super::blocks::by_blocks;
 use super::evaluated_model::EvaluatedModel;
 use super::{Failure, Measurement, Model, Observation};
 use abbe_analysis::decompose::symmetric_eigen;
-use abbe_analysis::{in_order, sampling};
+use abbe_analysis::in_order;
 
 /// Criterion of an optimal design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +54,7 @@ impl Candidates {
         let (p, count) = (model.unknowns.len(), list.len());
         let most = list.iter().map(Observation::count).max().unwrap_or_default();
         let rows = model.camera.map_or(most, |camera| most.min(camera.rank()));
-        let arm = sampling::arm_length(model.manipulator, &model.s).map_err(Failure::Machine)?;
+        let arm = model.arm_length()?;
         let block = |first: usize, part: &[Observation]| {
             let mut stack = DMatrix::zeros(rows * part.len(), p);
             let mut nominal = model.at(&vec![0.0; p]);

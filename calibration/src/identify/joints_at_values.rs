@@ -3,7 +3,6 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{Failure, Model, Observation};
-use abbe_analysis::sampling;
 use abbe_core::VariableKind;
 
 /// Largest remaining difference, as a share of the arm or in rad.
@@ -22,7 +21,7 @@ pub fn joints_at_values(
     moved: &[usize],
 ) -> Result<Option<Vec<f64>>, Failure> {
     let variables = &model.manipulator.description().variables;
-    let arm = sampling::arm_length(model.manipulator, &model.s).map_err(Failure::Machine)?;
+    let arm = model.arm_length()?;
     let size = |j: &usize| if variables[*j].kind == VariableKind::Revolute { 1.0 } else { arm };
     let mut at = model.at(x);
     let mut place = observation.clone();

@@ -62,6 +62,8 @@ pub struct Model<'a> {
     pub roles: Vec<Role>,
     /// Structural parameters.
     pub s: Vec<f64>,
+    /// Ranges of the joint variables in the data, the travel of slides without limits; or empty.
+    pub ranges: Vec<[f64; 2]>,
     /// Length to which residuals of readings that are blind to size are relative, if there are any.
     pub reference_length: Option<ReferenceLength>,
 }
@@ -83,8 +85,14 @@ impl<'a> Model<'a> {
             unknowns: Vec::new(),
             roles: vec![Role::Off; description.sources.len()],
             s: sampling::nominal_parameters(description),
+            ranges: Vec::new(),
             reference_length: None,
         }
+    }
+
+    /// Returns the size of the machine in its length unit.
+    pub fn arm_length(&self) -> Result<f64, Failure> {
+        sampling::arm_length_within(self.manipulator, &self.s, &self.ranges).map_err(Failure::Machine)
     }
 
     /// Returns a copy with these unknowns.
@@ -195,7 +203,7 @@ impl<'a> Model<'a> {
     /// tool and magnitudes have none. They regularize weakly determined unknowns; other unknowns
     /// hardly depend on them.
     pub fn priors(&self, share: f64) -> Result<Vec<Option<f64>>, Failure> {
-        let length = sampling::arm_length(self.manipulator, &self.s).map_err(Failure::Machine)?;
+        let length = self.arm_length()?;
         let prior = |unknown: &Unknown| match unknown {
             Unknown::Error(_, component) if component.is_rotation() => Some(share),
             Unknown::Error(..) => Some(share * length),
@@ -213,7 +221,7 @@ impl<'a> Model<'a> {
     /// the machine, errors of base and tool a hundredth of that, and the places of instruments a
     /// tenth. Magnitudes and zeros have no expectation.
     pub fn expected(&self, priors: &[Option<f64>]) -> Result<Vec<Option<f64>>, Failure> {
-        let length = sampling::arm_length(self.manipulator, &self.s).map_err(Failure::Machine)?;
+        let length = self.arm_length()?;
         let expected = |(k, unknown): (usize, &Unknown)| {
             let of = |share: f64, rotation: bool| Some(if rotation { share } else { share * length });
             priors.get(k).copied().flatten().or(match unknown {

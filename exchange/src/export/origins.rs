@@ -14,11 +14,12 @@
 //! place an axis differently (rounded angles, catalogue numbers), the smallest motion brings `U_k'`
 //! to the axis of the spec.
 
+use abbe::analysis::sampling::JointAxis;
 use abbe::{Error, Manipulator, Pose};
 
 use super::chain_errors::{ChainErrors, Link, product};
 use super::real_machine::RealMachine;
-use crate::vector::{add, cross, dot, norm, scale, subtract};
+use abbe::analysis::sampling::vectors::{add, cross, dot, scale};
 
 /// Joint of the format.
 #[derive(Clone, Debug)]
@@ -31,13 +32,6 @@ pub(crate) struct Joint {
     pub(crate) at_zero: Pose,
     /// Index of the frame of the spec that the joint corresponds to; every moving joint has one.
     pub(crate) frame: Option<usize>,
-}
-
-/// Axis of a joint of the spec.
-struct Axis {
-    direction: [f64; 3],
-    /// Point on the axis of a revolute joint; `None` for a prismatic one.
-    point: Option<[f64; 3]>,
 }
 
 /// Returns the origins of the joints of the real machine; `tool` is the pose of the nominal tool in
@@ -80,7 +74,7 @@ pub(crate) fn origins(machine: &RealMachine, joints: &[Joint], tool: &Pose) -> R
 
 /// Returns the axis of the joint of a frame, in the frame after the motion: the axis of `A_i(0)⁻¹
 /// A_i(q)`.
-fn axis_of_frame(machine: &RealMachine, frame: usize) -> Result<Axis, Error> {
+fn axis_of_frame(machine: &RealMachine, frame: usize) -> Result<JointAxis, Error> {
     const SOME: f64 = 0.5;
     let variable = machine.spec.variables_of_transforms()[frame].first().copied().unwrap_or_default();
     let mut q = vec![0.0; machine.spec.variables.len()];
@@ -89,29 +83,11 @@ fn axis_of_frame(machine: &RealMachine, frame: usize) -> Result<Axis, Error> {
         q[variable] = value;
         machine.manipulator.transforms(&q, &machine.s, &mut transforms).map(|()| transforms[frame])
     };
-    let motion = at(0.0)?.inverse().then(&at(SOME)?);
-    let Pose([x, y, z, t]) = motion;
-    let v = [y[2] - z[1], z[0] - x[2], x[1] - y[0]];
-    let twice_sine = norm(v);
-    if twice_sine < 1e-12 {
-        return Ok(Axis { direction: scale(t, 1.0 / norm(t)), point: None });
-    }
-    // t = (1 − R) c has the solution c = (t + cot(φ/2) a × t) / 2 in the plane across the axis.
-    let angle = twice_sine.atan2(x[0] + y[1] + z[2] - 1.0);
-    let direction = scale(v, 1.0 / twice_sine);
-    let swing = scale(cross(direction, t), 1.0 / (0.5 * angle).tan());
-    Ok(Axis { direction, point: Some(scale(add(t, swing), 0.5)) })
-}
-
-impl Axis {
-    /// Takes an axis from a frame to the frame in which its pose is given.
-    fn in_outer_frame(&self, frame: &Pose) -> Self {
-        Self { direction: frame.turn(self.direction), point: self.point.map(|point| frame.apply(point)) }
-    }
+    Ok(JointAxis::of_motion(&at(0.0)?.inverse().then(&at(SOME)?)))
 }
 
 /// Moves a frame by the smallest motion that puts its axis onto another.
-fn aligned(frame: &Pose, axis: [f64; 3], wanted: &Axis) -> Pose {
+fn aligned(frame: &Pose, axis: [f64; 3], wanted: &JointAxis) -> Pose {
     let from = frame.turn(axis);
     let sign = if dot(from, wanted.direction) < 0.0 { -1.0 } else { 1.0 };
     let to = scale(wanted.direction, sign);
@@ -122,9 +98,5 @@ fn aligned(frame: &Pose, axis: [f64; 3], wanted: &Axis) -> Pose {
         add(add(w, first), scale(cross(v, first), 1.0 / (1.0 + c)))
     };
     let [x, y, z, p] = frame.0;
-    let origin = match wanted.point {
-        Some(point) => add(point, scale(to, dot(to, subtract(p, point)))),
-        None => p,
-    };
-    Pose([turned(x), turned(y), turned(z), origin])
+    Pose([turned(x), turned(y), turned(z), wanted.nearest(p)])
 }

@@ -13,7 +13,7 @@ use super::chain_errors::{ChainErrors, Link, product};
 use super::pose_difference::PoseDifference;
 use super::real_machine::RealMachine;
 use super::slides::Axes;
-use crate::vector::{add, cross, dot, scale};
+use abbe::analysis::sampling::vectors::{add, cross, dot, scale};
 
 /// Mean displacement of a rotary axis of the workpiece from its nominal pose.
 #[derive(Clone, Debug, Serialize)]

@@ -10,7 +10,7 @@ use abbe_spec::option::TO_TABLE;
 
 use super::chain_errors::{ChainErrors, product};
 use super::real_machine::RealMachine;
-use crate::vector::{add, cross, subtract};
+use abbe::analysis::sampling::vectors::{add, cross, subtract};
 
 /// Linear axis.
 #[derive(Clone, Copy, Debug)]

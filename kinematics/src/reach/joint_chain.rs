@@ -9,6 +9,7 @@ use core::f64::consts::TAU;
 
 use super::target_search::Problem;
 use crate::sampling;
+use crate::sampling::vectors::cross;
 use abbe_core::{Pose, VariableKind};
 
 /// Rotation that reveals the axis of a revolute joint: the three configurations are equidistant,
@@ -158,17 +159,12 @@ pub(super) fn motion(kind: VariableKind, by: f64) -> Pose {
 fn axis(kind: VariableKind, here: &Pose, forth: &Pose, back: &Pose) -> Option<Pose> {
     let home = here.inverse();
     let (forth, back) = (forth.then(&home), back.then(&home));
-    let Pose([x, y, z, t]) = forth;
     let (along, at) = match kind {
         VariableKind::Revolute => {
-            let twice_sine = 2.0 * TURN.sin();
-            let a = [y[2] - z[1], z[0] - x[2], x[1] - y[0]].map(|component| component / twice_sine);
-            // t = (I − R) c, and c ⊥ a: c = (t + cot(θ/2) a × t)/2.
-            let cotangent = 1.0 / (TURN / 2.0).tan();
-            let across = cross(a, t);
-            (a, core::array::from_fn(|i| 0.5 * (t[i] + cotangent * across[i])))
+            let axis = sampling::JointAxis::of_motion(&forth);
+            (axis.direction, axis.point?)
         }
-        VariableKind::Prismatic => (t, [0.0; 3]),
+        VariableKind::Prismatic => (forth.position(), [0.0; 3]),
     };
     let length = sampling::norm(along);
     // NaN fails, too.
@@ -188,10 +184,6 @@ fn frame(z: [f64; 3], at: [f64; 3]) -> Pose {
     let length = sampling::norm(x);
     let x = x.map(|component| component / length);
     Pose([x, cross(z, x), z, at])
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn near(a: &Pose, b: &Pose) -> bool {

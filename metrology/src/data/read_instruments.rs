@@ -2,7 +2,7 @@
 //!
 //! The keys of an instrument are those of its [kind](InstrumentKind); each key has one reader here.
 
-use abbe::analysis::sampling::norm;
+use abbe::analysis::sampling::vectors::{norm, unit as unit_vector};
 use abbe::identify::{CAMERA, Fixture, FixtureGeometry, INSTRUMENTS, InstrumentKind, Observable};
 use abbe_spec::document::{Item, Section};
 use abbe_spec::expr::Dimension;
@@ -250,9 +250,4 @@ fn own_direction(section: &Section<'_>, kind: &InstrumentKind, key: &str) -> Opt
         ),
         _ => Some(along),
     }
-}
-
-fn unit_vector(v: [f64; 3]) -> [f64; 3] {
-    let length = norm(v);
-    if length > 0.0 { v.map(|x| x / length) } else { v }
 }

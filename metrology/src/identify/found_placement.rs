@@ -1,6 +1,6 @@
 //! Identified placement of the machine and of what is mounted on its tool.
 
-use abbe::analysis::sampling::norm;
+use abbe::analysis::sampling::vectors::unit;
 use abbe::identify::{Fit, FixtureGeometry, INTRINSICS, Model, Observation, Station, Unknown};
 use abbe::{Component, Pose};
 use serde::Serialize;
@@ -175,8 +175,4 @@ impl FoundPlacement {
         let (targets, covariance) = (self.targets.clone(), self.covariance.clone());
         vec![PlacementAtStation { station: String::new(), targets, mounting: self.mounting, covariance }]
     }
-}
-
-fn unit(v: [f64; 3]) -> [f64; 3] {
-    v.map(|x| x / norm(v))
 }

@@ -56,7 +56,9 @@ impl Setup<'_> {
             self.come_near(data).map_err(fail)?;
         }
         let model = self.real.with(unknowns);
-        let fit = fit(&model, &data.observations, &Options::default()).map_err(fail)?;
+        // Tilts of a dial whose tip always touches the same point are not determined.
+        let options = Options { expected: model.expected(&[]).map_err(fail)?, ..Options::default() };
+        let fit = fit(&model, &data.observations, &options).map_err(fail)?;
         self.set_stations(&fitted_stations(&model, &fit.x));
         let fixtures = (0..model.fixtures.len())
             .map(|i| Fixture { geometry: fitted_fixture(&model, &fit.x, i), ..model.fixtures[i].clone() });

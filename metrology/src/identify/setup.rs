@@ -1,6 +1,5 @@
 //! Models that measurements are compared with.
 
-use abbe::analysis::sampling;
 use abbe::identify::{Failure, Model, Observation, Role, Station, Unknown};
 use abbe::{Class, Description, Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
@@ -28,7 +27,7 @@ pub(crate) struct Setup<'a> {
     pub(crate) delivered: Model<'a>,
     /// Stations, and places on the tool, that neither map nor drawing states.
     pub(super) open: OpenPlaces,
-    /// Sum of the lengths of the chain, in the length unit.
+    /// Size of the machine, in the length unit.
     pub(crate) arm: f64,
     /// Number of sources of the spec itself.
     pub(crate) declared: usize,
@@ -45,7 +44,7 @@ impl<'a> Setup<'a> {
         data: &Data,
         terms: usize,
     ) -> Result<Self, Diagnostics> {
-        let mut setup = Self::without_stations(manipulator, map, terms)?;
+        let mut setup = Self::without_stations(manipulator, map, &data.observations, terms)?;
         let names = if data.stations.is_empty() { vec![String::new()] } else { data.stations.clone() };
         setup.name_stations(map, &names);
         check_board(&setup.real, data)?;
@@ -113,7 +112,7 @@ impl<'a> Setup<'a> {
             );
             return Err(mistake::with_help(map.path(), message, help));
         }
-        let mut setup = Self::without_stations(manipulator, map, 0)?;
+        let mut setup = Self::without_stations(manipulator, map, &[], 0)?;
         if setup.ideal.camera.is_some() && !map.is_placed() {
             return Err(unplaced(map));
         }
@@ -124,17 +123,18 @@ impl<'a> Setup<'a> {
     fn without_stations(
         manipulator: &'a dyn Manipulator,
         map: &Map,
+        rows: &[Observation],
         terms: usize,
     ) -> Result<Self, Diagnostics> {
-        let ideal = ideal_model(manipulator, map);
+        let mut ideal = ideal_model(manipulator, map);
+        ideal.ranges = ranges(rows);
         let description = ideal.manipulator.description();
         let mut real = ideal.clone();
         let declared = description.sources.len() - terms;
         for (source, role) in description.sources[..declared].iter().zip(&mut real.roles) {
             *role = if source.class == Class::Repeatable { Role::Known } else { Role::Off };
         }
-        let arm = sampling::arm_length(ideal.manipulator, &ideal.s);
-        let arm = arm.map_err(|error| mistake::whole(&description.name, &error))?;
+        let arm = ideal.arm_length().map_err(|error| mistake::whole(&description.name, &error))?;
         let placement = map.placement.exact;
         let (delivered, open) = (real.clone(), OpenPlaces::default());
         Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, open, arm, declared })
@@ -270,15 +270,17 @@ impl<'a> Setup<'a> {
 
     /// Returns the indices of the variables that move in the data.
     pub(crate) fn moved(&self, data: &[Observation]) -> Vec<usize> {
-        let moves = |i: &usize| {
-            let values = data.iter().map(|row| row.q[*i]);
-            let (least, largest) =
-                values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-            let unit = self.description.variables[*i].kind.either(1.0, self.arm);
-            largest - least > 1e-4 * unit
-        };
-        (0..self.description.variables.len()).filter(moves).collect()
+        let unit = |i: usize| self.description.variables[i].kind.either(1.0, self.arm);
+        let ranges = ranges(data).into_iter().enumerate();
+        ranges.filter(|(i, [least, largest])| largest - least > 1e-4 * unit(*i)).map(|(i, _)| i).collect()
     }
+}
+
+/// Returns the range of each joint variable; empty without rows.
+fn ranges(rows: &[Observation]) -> Vec<[f64; 2]> {
+    let values = |i: usize| rows.iter().map(move |row| row.q[i]);
+    let range = |i| values(i).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
+    (0..rows.first().map_or(0, |row| row.q.len())).map(range).collect()
 }
 
 /// Residual, as a share of the arm length, above which an initial placement is far.

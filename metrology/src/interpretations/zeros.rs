@@ -7,6 +7,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use abbe::analysis::sampling::vectors::dot;
+
 /// Dependence of the sum of squares on the zero of one joint.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ZeroForm {
@@ -54,10 +56,6 @@ impl ZeroForm {
             Self::Line(_) => 0.0,
         }
     }
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Returns the zeros with the smallest sum, and that sum. `values` are those at all nodes, the last

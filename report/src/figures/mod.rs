@@ -19,6 +19,7 @@ pub(crate) mod residuals;
 mod surface;
 mod travel;
 
+use abbe::analysis::sampling::norm;
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::FigureData;
 use abbe_study::study_file::Content;
@@ -52,11 +53,6 @@ pub(crate) fn scene(figure: &NamedFigure, report: &Report) -> Scene {
         caption: figure.request.caption.clone(),
         ..scene
     }
-}
-
-/// Computes the Euclidean norm.
-fn norm(vector: [f64; 3]) -> f64 {
-    vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
 /// Returns the step that thins `count` items to at most `most`.

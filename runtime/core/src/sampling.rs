@@ -5,7 +5,13 @@ use std::sync::LazyLock;
 use std::vec;
 use std::vec::Vec;
 
-use crate::{Description, Error, Manipulator, Variable};
+use crate::{Description, Manipulator, Variable};
+
+pub use arm_length::{JointAxis, arm_length, arm_length_within};
+pub use vectors::norm;
+
+mod arm_length;
+pub mod vectors;
 
 /// Returns term `index` of the Halton sequence in a dimension, in `[0, 1)`: the radical inverse of
 /// `index` in the dimension's prime base.
@@ -154,18 +160,6 @@ pub fn nominal_inputs(description: &Description) -> Vec<f64> {
     description.inputs.iter().map(|input| input.nominal).collect()
 }
 
-/// Returns the sum of the lengths of the chain's transforms at home, which scales lengths. Returns
-/// 1 if the sum is zero.
-///
-/// Errors as for [`Manipulator::transforms`].
-pub fn arm_length(manipulator: &dyn Manipulator, s: &[f64]) -> Result<f64, Error> {
-    let description = manipulator.description();
-    let mut transforms = vec![crate::Pose::IDENTITY; description.frames.len() + 1];
-    manipulator.transforms(&home(description), s, &mut transforms)?;
-    let length = transforms.iter().map(|transform| norm(transform.position())).sum::<f64>();
-    Ok(if length > 0.0 { length } else { 1.0 })
-}
-
 /// Returns `false` where the loops of a manipulator do not close.
 pub fn closes(manipulator: &dyn Manipulator, q: &[f64], s: &[f64]) -> bool {
     let mut passive = vec![0.0; manipulator.description().passive().count()];
@@ -197,11 +191,6 @@ pub fn joint_sample(description: &Description, arm: f64, moved: &[usize], index:
         }
     }
     q
-}
-
-/// Returns the Euclidean norm of a vector.
-pub fn norm(v: [f64; 3]) -> f64 {
-    v.iter().map(|component| component * component).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

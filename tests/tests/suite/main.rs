@@ -54,6 +54,7 @@ mod reference;
 mod reference_pages;
 mod schemas;
 mod selected_models;
+mod size;
 mod structured_text;
 mod sums;
 mod tables;

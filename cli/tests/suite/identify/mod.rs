@@ -1,6 +1,7 @@
 //! `abbe identify` on simulated measurements.
 
 mod data;
+mod small_data;
 
 use std::path::{Path, PathBuf};
 

@@ -18,7 +18,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::dh::table::{DhTable, motion};
 use crate::export::RealMachine;
-use crate::vector::cross;
+use abbe::analysis::sampling::vectors::cross;
 
 /// Largest ratio of an eigenvalue of JᵀJ to the largest one at which it is left out.
 const NEGLIGIBLE: f64 = 1e-6;

@@ -7,7 +7,7 @@ use abbe::{Orientation, Pose, deviation};
 
 use crate::export::report::rounded;
 use crate::placement::{placed, roll_pitch_yaw};
-use crate::vector::norm;
+use abbe::analysis::sampling::vectors::norm;
 
 /// Nominal and new origin of a joint, in m and rad.
 pub(super) struct NewOrigin<'a> {

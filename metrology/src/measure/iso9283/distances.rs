@@ -4,7 +4,7 @@
 //! `D_c`, `AD = D̄ − D_c` and `RD = ±3 √(Σ (D_j − D̄)²/(n − 1))`; for orientations
 //! `D_a = a_1 − a_2`.
 
-use abbe::analysis::sampling::norm;
+use abbe::analysis::sampling::vectors::distance;
 use serde::Serialize;
 
 use super::super::errors::Visit;
@@ -62,8 +62,4 @@ impl Distances {
 
 fn commanded(row: &Visit) -> [f64; 3] {
     std::array::from_fn(|k| row.point[k] - row.error[k])
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    norm(std::array::from_fn(|k| a[k] - b[k]))
 }

@@ -14,7 +14,7 @@ const STEP: f64 = 0.1;
 /// First step of a second try, made where the long step finds another derivative. A function with
 /// kinks, such as a table, has kinks that long steps skip. A wrong Jacobian disagrees with short
 /// steps too.
-const SHORT_STEP: f64 = 1e-4;
+const SHORT_STEP: f64 = 3e-5;
 
 /// Size of a Jacobian, relative to the arm length, that is rounding errors only.
 const NOISE: f64 = 1e-11;

@@ -1,6 +1,7 @@
 //! Stick figure of the manipulator at home.
 
 use abbe::analysis::Configuration;
+use abbe::analysis::sampling::vectors::distance;
 use abbe::{Error, Manipulator, Pose, tool_pose};
 use abbe_spec::{Closure, Spec};
 use serde::Serialize;
@@ -79,8 +80,4 @@ impl Stick {
         };
         Ok(Self { origins, links, size })
     }
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }

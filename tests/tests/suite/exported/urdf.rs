@@ -184,3 +184,15 @@ fn a_calibration_has_the_joints_where_they_are() {
     let job = Export { machine: machine("panda", ""), format: Format::UrCalibration, samples: 5, seed: 0 };
     assert!(job.run(&mut ()).unwrap_err().list[0].message.contains("7 revolute joints, not the six"));
 }
+
+/// Checks an arm whose table has lengths of 200 m, because two axes are nearly parallel.
+#[test]
+fn a_calibration_has_the_lengths_of_the_arm() {
+    let spec = Spec::parse("arm.toml", crate::size::NEARLY_PARALLEL).unwrap();
+    let report = exported(&Machine::of_spec(spec, "arm"), Format::UrCalibration);
+    assert!(report.remains.position.largest < 1e-9, "{:?}", report.remains);
+    let text = &report.files[0].text;
+    let numbers = text.lines().filter_map(|line| line.trim().split_once(": ")?.1.parse::<f64>().ok());
+    let lengths: Vec<f64> = numbers.enumerate().filter(|(i, _)| i % 6 < 3).map(|(_, v)| v).collect();
+    assert!(lengths.len() == 18 && lengths.iter().all(|length| length.abs() < 1.0), "{text}");
+}
