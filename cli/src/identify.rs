@@ -7,7 +7,7 @@ use abbe::VariableKind;
 use abbe::identify::Loss;
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
-use abbe_metrology::identify::options::{FOLDS, LOSSES, TERMS};
+use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};
 use abbe_metrology::identify::{self, Family, Harmonics, Prior, Report, Settings};
 use abbe_report::text::{Detail, wrapped};
 use abbe_report::{Provenance, views};
@@ -35,6 +35,9 @@ pub(crate) struct Identify {
     /// model selection
     #[arg(long, value_name = "FILE")]
     test: Option<PathBuf>,
+    /// Fit nothing but this: by itself if there are too few rows for the errors of the machine
+    #[arg(long, value_parser = named(ONLY), value_name = "PART", conflicts_with_all = ["terms", "harmonics"])]
+    only: Option<bool>,
     /// Families of additional error terms to try besides constant errors; a term is kept if it
     /// lowers the cross-validation error
     #[arg(long, value_parser = named(TERMS), value_delimiter = ',', value_name = "FAMILY,…")]
@@ -95,6 +98,7 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     let test = arguments.test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
     let settings = Settings {
         loss: arguments.robust,
+        only_placement: arguments.only.unwrap_or_default(),
         prior: arguments.prior,
         folds: arguments.folds,
         time: arguments.time,
@@ -181,6 +185,9 @@ impl IdentifiedFiles {
     fn text(&self, detail: Detail) -> String {
         let Self { file, map_note, lines, .. } = self;
         let count = lines.len();
+        if count == 0 {
+            return format!("{}\n{map_note}\n", wrapped(&format!("Written to {file}: the nominal spec."), 0));
+        }
         let (what, lines) = match detail {
             Detail::Full => {
                 ("these lines".to_owned(), lines.iter().map(|line| format!("{line}\n")).collect())

@@ -20,7 +20,7 @@ use crate::export::origins::{Joint, origins};
 use crate::export::report::{UNCHANGED, nominal_sign, rounded, unreadable};
 use crate::export::{ExportReport, ExportedFile, RealMachine, about_x, about_z};
 use crate::placement::{placed, roll_pitch_yaw};
-use abbe::analysis::sampling::vectors::{cross, dot, norm, scale, subtract};
+use abbe::analysis::sampling::vectors::{cross, dot, scale, subtract, unit};
 
 /// Names of the joints, and the angle from the previous axis about x in quarter turns.
 const JOINTS: [(&str, f64); 6] = [
@@ -130,15 +130,12 @@ fn near_each_other(mut frames: Vec<Pose>) -> Vec<Pose> {
     let mut before = Pose::IDENTITY;
     for i in 0..frames.len() {
         let Pose([_, _, z, p]) = frames[i];
-        if frames.get(i + 1).is_some_and(|next| dot(next.0[2], z).abs() > PARALLEL) {
-            let quarters = JOINTS.get(i).map_or(0.0, |(_, quarters)| *quarters);
-            let expected = before.then(&about_x(quarters * FRAC_PI_2, 0.0)).0[0];
-            let x = subtract(expected, scale(z, dot(z, expected)));
-            if norm(x) > PARALLEL {
-                let x = scale(x, 1.0 / norm(x));
-                let origin = JointAxis { direction: z, point: Some(p) }.nearest(before.position());
-                frames[i] = Pose([x, cross(z, x), z, origin]);
-            }
+        let is_parallel = frames.get(i + 1).is_some_and(|next| dot(next.0[2], z).abs() > PARALLEL);
+        if is_parallel && let Some((_, quarters)) = JOINTS.get(i) {
+            let [x, ..] = before.then(&about_x(quarters * FRAC_PI_2, 0.0)).0;
+            let x = unit(subtract(x, scale(z, dot(z, x))));
+            let axis = JointAxis { direction: z, point: Some(p) };
+            frames[i] = Pose([x, cross(z, x), z, axis.nearest(before.position())]);
         }
         before = frames[i];
     }

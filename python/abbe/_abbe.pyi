@@ -484,6 +484,7 @@ class Machine:
         map: _Map,
         *,
         test: _Measured | None = None,
+        only: Literal["placement"] | None = None,
         terms: options.Terms | Sequence[options.Terms] | None = None,
         robust: options.Robust | None = None,
         prior: float | Literal["spec", "auto"] | None = None,
@@ -498,14 +499,15 @@ class Machine:
         validates the result on data that were not fitted.
 
         `data`, `test`: measurements to fit and to test, CSV files or tables as for `measure`.
-        `map`: path of the map of their columns, or a shipped name. `terms`: families of additional
-        error terms to try: "auto" for all, or one or several of joint, load, elastic, backlash,
-        product, drift, profile. `robust`: robust loss, "none", "huber" or "tukey". `prior`: prior
-        standard deviation of the errors, relative to the length of the arm and in rad, or "spec" or
-        "auto". `folds`: number of folds of the cross-validation. `time`: time limit in seconds for
-        the search for additional terms. `resample=b`: repetition b of a bootstrap over
-        configurations (`abbe.fleet.bootstrap` runs many). `accept`: limits such as "mean 0.15 mm,
-        max 0.3 mm".
+        `map`: path of the map of their columns, or a shipped name. `only="placement"`: fit no error
+        of the machine, only where machine, instruments and targets are. `terms`: families of
+        additional error terms to try: "auto" for all, or one or several of joint, load, elastic,
+        backlash, product, drift, profile. `robust`: robust loss, "none", "huber" or "tukey".
+        `prior`: prior standard deviation of the errors, relative to the length of the arm and in
+        rad, or "spec" or "auto". `folds`: number of folds of the cross-validation. `time`: time
+        limit in seconds for the search for additional terms. `resample=b`: repetition b of a
+        bootstrap over configurations (`abbe.fleet.bootstrap` runs many). `accept`: limits such as
+        "mean 0.15 mm, max 0.3 mm".
 
         `.report(folder)` writes report.html, found.toml and found.map.toml; `.load()` returns the
         identified machine. Fields: `abbe.reports.IdentifyReport`.

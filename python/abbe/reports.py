@@ -354,7 +354,10 @@ class Certainty(Fields):
     """
 
     freedom: float
-    """Residual degrees of freedom."""
+    """Residual degrees of freedom; 0 with as many values as unknowns, which leave nothing to test."""
+
+    coverage_freedom: float
+    """Degrees of freedom of the standard deviations: those of the residuals, and 2 for the stated uncertainties."""
 
     factor_95: float
     """Coverage factor for 95 %, from Student's t."""

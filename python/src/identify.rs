@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use abbe_metrology::data::Data;
-use abbe_metrology::identify::options::{FOLDS, LOSSES, TERMS};
+use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};
 use abbe_metrology::identify::{Family, Identify, Prior, Settings};
 use abbe_report::{Provenance, views};
 use abbe_study::explore::Explore;
@@ -25,24 +25,26 @@ impl Machine {
     /// validates the result on data that were not fitted.
     ///
     /// `data`, `test`: measurements to fit and to test, CSV files or tables as for `measure`.
-    /// `map`: path of the map of their columns, or a shipped name. `terms`: families of additional
-    /// error terms to try: "auto" for all, or one or several of joint, load, elastic, backlash,
-    /// product, drift, profile. `robust`: robust loss, "none", "huber" or "tukey". `prior`: prior
-    /// standard deviation of the errors, relative to the length of the arm and in rad, or "spec" or
-    /// "auto". `folds`: number of folds of the cross-validation. `time`: time limit in seconds for
-    /// the search for additional terms. `resample=b`: repetition b of a bootstrap over
-    /// configurations (`abbe.fleet.bootstrap` runs many). `accept`: limits such as "mean 0.15 mm,
-    /// max 0.3 mm".
+    /// `map`: path of the map of their columns, or a shipped name. `only="placement"`: fit no error
+    /// of the machine, only where machine, instruments and targets are. `terms`: families of
+    /// additional error terms to try: "auto" for all, or one or several of joint, load, elastic,
+    /// backlash, product, drift, profile. `robust`: robust loss, "none", "huber" or "tukey".
+    /// `prior`: prior standard deviation of the errors, relative to the length of the arm and in
+    /// rad, or "spec" or "auto". `folds`: number of folds of the cross-validation. `time`: time
+    /// limit in seconds for the search for additional terms. `resample=b`: repetition b of a
+    /// bootstrap over configurations (`abbe.fleet.bootstrap` runs many). `accept`: limits such as
+    /// "mean 0.15 mm, max 0.3 mm".
     ///
     /// `.report(folder)` writes report.html, found.toml and found.map.toml; `.load()` returns the
     /// identified machine. Fields: `abbe.reports.IdentifyReport`.
-    #[pyo3(signature = (data, map, *, test=None, terms=None, robust=None, prior=None, folds=10, time=None, resample=None, accept=None, threads=None, progress=None))]
+    #[pyo3(signature = (data, map, *, test=None, only=None, terms=None, robust=None, prior=None, folds=10, time=None, resample=None, accept=None, threads=None, progress=None))]
     fn identify(
         &self,
         py: Python<'_>,
         data: &Bound<'_, PyAny>,
         map: &Bound<'_, PyAny>,
         test: Option<&Bound<'_, PyAny>>,
+        only: Option<&str>,
         terms: Option<&Bound<'_, PyAny>>,
         robust: Option<&str>,
         prior: Option<&Bound<'_, PyAny>>,
@@ -55,6 +57,7 @@ impl Machine {
     ) -> PyResult<Py<Report>> {
         let terms = families(terms)?;
         let settings = Settings {
+            only_placement: only.map(|name| named("only", name, ONLY)).transpose()?.unwrap_or_default(),
             loss: robust.map(|name| named("robust", name, LOSSES)).transpose()?.unwrap_or_default(),
             prior: expected(prior)?,
             folds: within("folds", folds, FOLDS.range)?,

@@ -57,6 +57,7 @@ options! {
     NAME = "name";
     NODES = "nodes";
     ONLY = "only";
+    ONLY_PLACEMENT = "only", "placement";
     POSES = "poses";
     PRIOR = "prior";
     Q = "q";

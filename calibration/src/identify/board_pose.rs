@@ -8,9 +8,9 @@ use std::borrow::Cow;
 
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 
-use super::vectors::{cross, dot};
 use super::{Measurement, Model, Observation};
 use abbe_analysis::decompose::{svd3, symmetric_eigen};
+use abbe_analysis::sampling::vectors::{cross, dot};
 use abbe_core::{Pose, displacement};
 
 /// Corner on the board, and `(x, y)` of its line of sight.

@@ -16,6 +16,10 @@
 //!   with `g_c = J_cᵀ (I − H_c)^(−1/2) r_c`, `H_c = J_c B J_cᵀ`: Bell and McCaffrey, *Bias
 //!   reduction in standard errors for linear regression with multi-stage samples*, 2002 (CR2). With
 //!   few configurations per unknown, CR1 is too small and CR3 too large.
+//!
+//! Few degrees of freedom `ν` of the residuals determine σ poorly. The stated uncertainties are
+//! prior information worth `ν_0` degrees of freedom, and the covariance is the mean of that with
+//! σ = 1 and `C`, weighted by `ν_0` and `ν`.
 
 use std::collections::BTreeMap;
 
@@ -42,9 +46,9 @@ pub enum Independent {
 /// Covariance of the unknowns.
 pub(super) struct Known {
     pub(super) covariance: DMatrix<f64>,
-    /// Standard deviation of a number, in units of the uncertainty.
+    /// Standard deviation of a residual, in units of the uncertainty; 1 without degrees of freedom.
     pub(super) sigma: f64,
-    /// Degrees of freedom.
+    /// Degrees of freedom of the residuals.
     pub(super) freedom: f64,
     pub(super) independent: Independent,
     /// Number of configurations.
@@ -67,29 +71,42 @@ impl Solver<'_> {
         let (means, bounded) = (at_most(usize::MAX), at_most(POSE));
         let several = at_most(3) < means;
         let count = configurations.count;
-        let known = |covariance, sigma, freedom, independent| Known {
-            covariance,
-            sigma,
-            freedom: f64::max(freedom, 1.0),
-            independent,
-            configurations: count,
+        let stated = self.model.stated_freedom;
+        let known = |covariance: DMatrix<f64>, prior: DMatrix<f64>, sigma, freedom: f64, independent| {
+            let freedom = freedom.max(if stated > 0.0 { 0.0 } else { 1.0 });
+            let (covariance, sigma) = match freedom {
+                0.0 => (prior, 1.0),
+                _ if stated == 0.0 => (covariance, sigma),
+                _ => ((prior * stated + covariance * freedom) / (stated + freedom), sigma),
+            };
+            Known { covariance, sigma, freedom, independent, configurations: count }
         };
         let distances = self.model.known_distances.len();
         let used: Vec<usize> = used().collect();
         if !several && n == means + distances || self.has_independent_pixels(&used)? {
             let freedom = n as f64 - p as f64;
             let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
-            return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));
+            return Ok(known(
+                self.covariance(sigma),
+                self.covariance(1.0),
+                sigma,
+                freedom,
+                Independent::Numbers,
+            ));
         }
         let groups = configurations.rows().with_indices(&used);
         let groups = groups.slices();
         if several {
             let (covariance, sigma) = self.sandwich(&groups, n - distances)?;
             let freedom = (count as f64 - 1.0).min(bounded as f64 - p as f64);
-            return Ok(known(covariance, sigma, freedom, Independent::Configurations));
+            let prior = self.covariance((n as f64 / bounded as f64).sqrt());
+            return Ok(known(covariance, prior, sigma, freedom, Independent::Configurations));
         }
         let (covariance, sigma, freedom) = self.visits(&groups, [n - distances, means])?;
-        Ok(known(covariance, sigma, freedom, Independent::Points))
+        // Visits share an error of the model as far as the residuals do.
+        let is_tested = freedom > 0.0 && sigma > 1e-9;
+        let prior = if is_tested { &covariance / (sigma * sigma) } else { self.covariance(1.0) };
+        Ok(known(covariance, prior, sigma, freedom, Independent::Points))
     }
 
     /// Computes covariance, σ and degrees of freedom for points visited repeatedly.

@@ -7,7 +7,7 @@
 //! `∂p/∂e = a × (p − o)` and `ω = a`; a translation along axis k is `P ê_k`. At ε = 0 these are the
 //! columns of `J_e`.
 
-use super::vectors::cross;
+use abbe_analysis::sampling::vectors::cross;
 use abbe_core::displacement;
 use abbe_core::{Component, Pose, Scalar};
 

@@ -8,8 +8,8 @@
 use super::columns::Frame;
 use super::evaluated_model::EvaluatedModel;
 use super::instrument::{Evaluation, Geometry};
-use super::vectors::dot;
-use super::{FixtureGeometry, Reference, Unknown, tangents};
+use super::{FixtureGeometry, Reference, Unknown};
+use abbe_analysis::sampling::vectors::{dot, tangents};
 use abbe_core::Component;
 
 impl EvaluatedModel<'_> {

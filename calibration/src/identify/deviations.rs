@@ -4,9 +4,9 @@ use core::borrow::Borrow;
 
 use super::blocks::by_blocks;
 use super::evaluated_model::EvaluatedModel;
-use super::vectors::difference;
 use super::{Camera, Distances, Failure, Figures, Measurement, Model, Observation};
 use abbe_analysis::sampling;
+use abbe_analysis::sampling::vectors::subtract as difference;
 use abbe_core::Pose;
 
 impl EvaluatedModel<'_> {

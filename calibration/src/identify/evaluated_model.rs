@@ -2,8 +2,8 @@
 //! zeros.
 
 use super::columns::{Displaced, Frame};
-use super::vectors::cross;
 use super::{Camera, Failure, Model, Observation, Role, Unknown};
+use abbe_analysis::sampling::vectors::cross;
 use abbe_core::{Component, Error, Pose, Quantity, drawn_pose, twist};
 
 /// Model at values of its unknowns, with reusable memory for the evaluation of configurations.

@@ -16,7 +16,8 @@ pub enum Failure {
     },
     /// The model cannot be evaluated at its home configuration.
     Machine(Error),
-    /// There are no more numbers than identifiable combinations: no redundancy is left.
+    /// There are fewer numbers than identifiable combinations, or no more without a stated
+    /// uncertainty.
     TooFew {
         /// Number of measured numbers, without repeated visits.
         numbers: usize,
@@ -62,7 +63,7 @@ impl fmt::Display for Failure {
                 write!(
                     f,
                     "{numbers} independent values were measured ({configurations} configuration{plural}) \
-                     for {rank} unknowns: no degrees of freedom remain to assess the result"
+                     for {rank} or more unknowns"
                 )
             }
             Self::Untouched { line } => {
@@ -85,7 +86,7 @@ impl Remedy for Failure {
                 error => error.remedy(),
             },
             Self::Machine(error) => error.remedy(),
-            Self::TooFew { .. } => "measure at more configurations, or set `base = \"known\"` in the map",
+            Self::TooFew { .. } => "measure at more configurations; repeated visits do not count",
             Self::Untouched { .. } => "leave the row out, or widen the limits of the joints",
             Self::NotConverged { .. } => {
                 "check for outliers, wrong units and reversed joints in the map (`abbe doctor`), \

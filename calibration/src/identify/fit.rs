@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::clustered::{Independent, Known};
 use super::solver::Solver;
 use super::{
-    Configurations, Failure, Identifiable, Loss, Model, Observation, Options, identifiable, knowable,
+    Configurations, Failure, Identifiable, Loss, Model, Observation, Options, Unknown, identifiable, knowable,
 };
 
 /// Observations with a smaller weight count as rejected.
@@ -22,10 +22,14 @@ pub struct Fit {
     pub covariance: DMatrix<f64>,
     /// Priors of the fit.
     pub priors: Vec<Option<f64>>,
-    /// Ratio of the residuals to the stated uncertainty of the instrument.
+    /// Ratio of the residuals to the stated uncertainty of the instrument; 1 without degrees of
+    /// freedom.
     pub sigma: f64,
-    /// Degrees of freedom of `sigma` and of the covariance, for coverage factors of Student's t.
+    /// Degrees of freedom of `sigma`.
     pub freedom: f64,
+    /// Degrees of freedom of the covariance, for coverage factors of Student's t: those of `sigma`
+    /// and of the [stated uncertainties](Model::stated_freedom).
+    pub coverage_freedom: f64,
     /// Independence assumed for the covariance.
     pub independent: Independent,
     /// Number of configurations, without rejected ones.
@@ -101,6 +105,17 @@ impl Fit {
     }
 }
 
+/// Returns rows that have the joints of different rows of the data.
+fn mixed(data: &[Observation]) -> Vec<Observation> {
+    let pairs = (0..4).flat_map(|by| (0..data.len()).map(move |i| (by, i)));
+    let joint = |j: usize, row: usize| data[row % data.len()].q[j];
+    let row = |(by, i): (usize, usize)| {
+        let q = (0..data[i].q.len()).map(|j| joint(j, i + by * j));
+        Observation { q: q.collect(), ..data[i].clone() }
+    };
+    pairs.map(row).collect()
+}
+
 /// Fits the unknowns of a model to measurements.
 ///
 /// Unknowns that are not identifiable are fixed at zero; see [`identifiable()`]. Known sources do
@@ -110,16 +125,24 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let mut at = options.at.clone();
     at.resize(model.unknowns.len(), 0.0);
     let plain = model.without_known_sources();
-    let identifiable = match options.expected.is_empty() {
-        true => identifiable(&plain, data, &at)?,
-        false => knowable(&plain, data, &at, &options.expected, options.noise)?,
+    let identifiable = |data: &[Observation]| match options.expected.is_empty() {
+        true => identifiable(&plain, data, &at),
+        false => knowable(&plain, data, &at, &options.expected, options.noise),
     };
+    let rank = |found: &Identifiable| found.rank + found.weak.len();
+    let more = |rows: &[Observation]| identifiable(rows).map_or(0, |found| rank(&found));
+    let identifiable = identifiable(data)?;
     let numbers = model.count(data.iter());
     // Repeated visits add no information about the machine; weakly determined unknowns count as
     // fitted parameters.
     let (independent, configurations) = Configurations::independent(data);
-    let rank = identifiable.rank + identifiable.weak.len();
-    if independent <= rank {
+    let rank = rank(&identifiable);
+    // As many numbers as unknowns are enough if other rows of these joints have no more unknowns.
+    let is_of_machine = |unknown: &Unknown| matches!(unknown, Unknown::Error(..));
+    let is_exact = model.stated_freedom > 0.0
+        && rank > 0
+        && (configurations > 1 || !model.unknowns.iter().any(is_of_machine));
+    if independent < rank || independent == rank && !(is_exact && more(&mixed(data)) <= rank) {
         return Err(Failure::TooFew { numbers: independent, configurations, rank });
     }
     let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
@@ -150,6 +173,7 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
         priors,
         sigma,
         freedom,
+        coverage_freedom: freedom + model.stated_freedom,
         independent,
         configurations,
         cost,

@@ -6,8 +6,8 @@
 //! translations and the rotation about the direction of a prismatic joint; all six components for a
 //! joint at rest. Then `E' = Ad(A_i⁻¹) ξ` is an equivalent error of frame i.
 
-use super::vectors::cross;
 use super::{Model, Unknown};
+use abbe_analysis::sampling::vectors::cross;
 use abbe_core::rotation_vector;
 use abbe_core::{Component, Error, Pose, VariableKind};
 

@@ -1,7 +1,7 @@
 //! Rows of the known distances of fixtures: one number each, beside those of the observations.
 
-use super::vectors::{difference, dot, unit};
 use super::{FixtureGeometry, Model, Observation, Unknown};
+use abbe_analysis::sampling::vectors::{dot, subtract as difference, unit};
 
 impl Model<'_> {
     /// Passes the residual of each known distance at `x`, in units of its uncertainty, and its

@@ -107,7 +107,6 @@ mod triangle;
 mod unknown;
 mod values;
 mod variance;
-mod vectors;
 mod views;
 
 #[cfg(test)]
@@ -130,7 +129,7 @@ pub use identifiable::{Identifiable, THRESHOLD, Weak, identifiable, knowable};
 pub use information::Criterion;
 pub use instrument::{
     CAMERA, CONTACT, Camera, Fixture, FixtureGeometry, INSTRUMENTS, INTRINSICS, InstrumentKind,
-    KnownDistance, Observable, Reference, SizeInformation, tangents,
+    KnownDistance, Observable, Reference, SizeInformation,
 };
 pub use joints_at_values::joints_at_values;
 pub use model::{Model, ReferenceLength};

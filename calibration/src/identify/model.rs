@@ -19,6 +19,9 @@ use abbe_core::{Class, Component, Manipulator, Pose};
 /// Prior standard deviation of the tilts of a direction, in rad.
 const DIRECTION: f64 = 0.02;
 
+/// Degrees of freedom of a stated uncertainty: it is trusted to about a factor of 2.
+const STATED: f64 = 2.0;
+
 /// Length of the machine that represents its size where readings do not depend on the size.
 ///
 /// The residual `r` of a [blind](Observable::is_blind_to_size) reading shrinks with the machine, so
@@ -56,6 +59,9 @@ pub struct Model<'a> {
     pub mountings: Vec<Pose>,
     /// Uncertainty of points and poses; observables have their own.
     pub uncertainty: Uncertainty,
+    /// Degrees of freedom of the stated uncertainties, which are prior information on σ; 0 if they
+    /// were estimated from the data.
+    pub stated_freedom: f64,
     /// Unknowns, in order.
     pub unknowns: Vec<Unknown>,
     /// Role of each source of the description; random sources have none.
@@ -82,6 +88,7 @@ impl<'a> Model<'a> {
             camera: None,
             mountings: vec![Pose::IDENTITY],
             uncertainty,
+            stated_freedom: STATED,
             unknowns: Vec::new(),
             roles: vec![Role::Off; description.sources.len()],
             s: sampling::nominal_parameters(description),

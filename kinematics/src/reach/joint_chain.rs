@@ -9,7 +9,7 @@ use core::f64::consts::TAU;
 
 use super::target_search::Problem;
 use crate::sampling;
-use crate::sampling::vectors::cross;
+use crate::sampling::vectors::tangents;
 use abbe_core::{Pose, VariableKind};
 
 /// Rotation that reveals the axis of a revolute joint: the three configurations are equidistant,
@@ -172,18 +172,10 @@ fn axis(kind: VariableKind, here: &Pose, forth: &Pose, back: &Pose) -> Option<Po
         return None;
     }
     let along = along.map(|component| component / length);
-    let axis = frame(along, at);
+    let [x, y] = tangents(along);
+    let axis = Pose([x, y, along, at]);
     let moved = |by: f64| axis.then(&motion(kind, by)).then(&axis.inverse());
     (near(&moved(size(kind)), &forth) && near(&moved(-size(kind)), &back)).then_some(axis)
-}
-
-/// Returns a frame with this z axis and origin.
-fn frame(z: [f64; 3], at: [f64; 3]) -> Pose {
-    let least = (0..3).min_by(|&i, &j| z[i].abs().total_cmp(&z[j].abs())).unwrap_or(0);
-    let x: [f64; 3] = core::array::from_fn(|i| f64::from(u8::from(i == least)) - z[i] * z[least]);
-    let length = sampling::norm(x);
-    let x = x.map(|component| component / length);
-    Pose([x, cross(z, x), z, at])
 }
 
 fn near(a: &Pose, b: &Pose) -> bool {

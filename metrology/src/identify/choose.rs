@@ -49,6 +49,9 @@ pub(super) fn choose(
     let interpreter = Interpreter::new(extended(spec, &offered.carriers));
     let setup = input.setup(&interpreter, own.len() + offered.carriers.len(), true, notes)?;
     let solved = solve(&setup, data, &own, &[], settings, notes)?;
+    if solved.is_placement() {
+        return Ok(Chosen::default());
+    }
     let constant = Assessed::new(&solved, data);
     let groups = sets.iter().flatten().map(Vec::len).sum();
     let model = offered.model(&solved, setup.declared + own.len());

@@ -1,6 +1,7 @@
 //! Identified machine as values to be added to its spec.
 
 use abbe::Component;
+use abbe::analysis::sampling::range_of;
 use abbe::identify::{Configurations, Unknown};
 use abbe_spec::expr::Symbol;
 use abbe_spec::visible::alters_text;
@@ -25,6 +26,8 @@ pub struct FoundModel {
     pub reference: String,
     /// Placement of the machine and of what is mounted on its tool. It is not part of the spec.
     pub placed: FoundPlacement,
+    /// Is true if no error of the machine was fitted: its spec remains as it is.
+    pub is_placement: bool,
     /// Constant errors of every frame.
     pub frames: Vec<Vec<FoundError>>,
     /// Numbers of the chain with an error: their terms are constant.
@@ -192,9 +195,7 @@ fn fitted(spec: &Spec, data: &Data) -> Vec<Fitted> {
             Symbol::Variable(i) => row.q[i],
             _ => 0.0,
         });
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], value| {
-            [least.min(value), largest.max(value)]
-        })
+        range_of(values)
     };
     symbols.map(|symbol| Fitted { symbol, range: range(symbol) }).collect()
 }

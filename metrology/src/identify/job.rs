@@ -25,7 +25,7 @@ use super::indistinguishable::indistinguishable;
 use super::instruments::{InstrumentFit, instrument_and_coordinate_fits, unequal_note};
 use super::known_distances::known_distance_fits;
 use super::leg_terms::leg_terms;
-use super::options::{LOSSES, Settings, TERMS};
+use super::options::{LOSSES, ONLY, Settings, TERMS};
 use super::parameters::{correlated, magnitudes, parameters, redundant};
 use super::plausibility::{check_lengths, tool_note};
 use super::point_residuals::points;
@@ -70,7 +70,7 @@ impl Identify {
     /// Returns the options that the figures depend on.
     fn options(&self) -> Vec<(&'static str, String)> {
         let Self { machine, map: _, data: _, test: _, terms, harmonics, settings, accept } = self;
-        let Settings { loss, prior, folds, time, points: _ } = settings;
+        let Settings { loss, only_placement, prior, folds, time, points: _ } = settings;
         let spec = &machine.spec;
         let named = |family: &Family| TERMS.0.iter().find(|(families, ..)| *families == [*family]);
         let terms = terms.iter().filter_map(named).map(|(_, name, _)| *name);
@@ -82,6 +82,7 @@ impl Identify {
             ("terms", terms.collect::<Vec<_>>().join(", ")),
             ("harmonics", harmonics.collect::<Vec<_>>().join(", ")),
             ("robust", LOSSES.name(*loss).to_owned()),
+            ("only", ONLY.name(*only_placement).to_owned()),
             ("prior", prior.to_string()),
             ("folds", folds.to_string()),
             ("time", time.map_or_else(String::new, |time| format!("{} s", time.as_secs_f64()))),
@@ -133,7 +134,8 @@ impl Identify {
         let terms = [leg_terms(&spec), chosen.terms()].concat();
         let interpreter = input.interpreter(&terms);
         let (setup, solved) = input.complete_fit(&interpreter, &terms, sets.is_empty(), notes)?;
-        let profiles = find_profiles(&self.terms, &input, (&setup, &solved), notes)?;
+        let families = if solved.is_placement() { &[][..] } else { &self.terms };
+        let profiles = find_profiles(families, &input, (&setup, &solved), notes)?;
         let profiled = profiles
             .found
             .as_ref()
@@ -220,7 +222,11 @@ fn found_model(
     Ok(FoundModel {
         derived: identified.derived.to_vec(),
         joint_errors: joint_errors.joint_errors(&explanations),
-        undetermined: UndeterminedDirections::new(setup, solved, converted, rows)?,
+        is_placement: solved.is_placement(),
+        undetermined: match solved.is_placement() {
+            true => UndeterminedDirections::default(),
+            false => UndeterminedDirections::new(setup, solved, converted, rows)?,
+        },
         estimated,
         unexplained: unexplained(setup, solved, rows, left)?,
         ..FoundModel::new(spec, solved, converted, data, setup.pose, left_of_both)

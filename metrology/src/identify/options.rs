@@ -17,6 +17,13 @@ pub const FOLDS: NumericOption<usize> = NumericOption { default: 10, range: 2..=
 pub const LOSSES: Choices<Loss> =
     Choices(&[(Loss::Squares, "none", ""), (Loss::Huber, "huber", ""), (Loss::Tukey, "tukey", "")]);
 
+/// Parts that can be fitted alone.
+pub const ONLY: Choices<bool> = Choices(&[(
+    true,
+    "placement",
+    "The places of the machine, the instruments and the targets, and the camera: no error of the machine",
+)]);
+
 /// Families of richer terms.
 pub const TERMS: Choices<&[Family]> = Choices(&[
     (&Family::ALL, "auto", "All of the following"),
@@ -57,6 +64,9 @@ pub const TERMS: Choices<&[Family]> = Choices(&[
 pub struct Settings {
     /// Loss function for residuals.
     pub loss: Loss,
+    /// Fits the places of the machine, the instruments and the targets alone, and no error of the
+    /// machine.
+    pub only_placement: bool,
     /// Expected size of errors.
     pub prior: Prior,
     /// Number of parts for cross-validation.
@@ -70,7 +80,8 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { loss: Loss::Squares, prior: Prior::default(), folds: FOLDS.default, time: None, points: false }
+        let (loss, prior) = Default::default();
+        Self { loss, only_placement: false, prior, folds: FOLDS.default, time: None, points: false }
     }
 }
 

@@ -153,8 +153,11 @@ pub struct Certainty {
     /// Unit of counting for degrees of freedom: `numbers` for every measured value, `points` for
     /// one point per configuration, or `configurations`.
     pub counted: &'static str,
-    /// Residual degrees of freedom.
+    /// Residual degrees of freedom; 0 with as many values as unknowns, which leave nothing to test.
     pub freedom: f64,
+    /// Degrees of freedom of the standard deviations: those of the residuals, and 2 for the stated
+    /// uncertainties.
+    pub coverage_freedom: f64,
     /// Coverage factor for 95 %, from Student's t.
     pub factor_95: f64,
     /// Probability of an uncertainty factor at least as far from 1 by chance.
@@ -171,15 +174,16 @@ impl Certainty {
                 Independent::Configurations => "configurations",
             },
             freedom: fit.freedom,
-            factor_95: student_factor(0.95, fit.freedom),
-            p_of_factor: deviation_beyond(fit.sigma, fit.freedom),
+            coverage_freedom: fit.coverage_freedom,
+            factor_95: student_factor(0.95, fit.coverage_freedom),
+            p_of_factor: if fit.freedom > 0.0 { deviation_beyond(fit.sigma, fit.freedom) } else { 1.0 },
         }
     }
 
     /// Returns the coverage factor at which all of `count` intervals together hold with 95 %
     /// (Bonferroni): the limit for the errors that are called significant.
     pub fn factor_of_all(&self, count: usize) -> f64 {
-        student_factor(1.0 - 0.05 / count.max(1) as f64, self.freedom)
+        student_factor(1.0 - 0.05 / count.max(1) as f64, self.coverage_freedom)
     }
 }
 

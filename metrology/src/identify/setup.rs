@@ -1,5 +1,6 @@
 //! Models that measurements are compared with.
 
+use abbe::analysis::sampling::range_of;
 use abbe::identify::{Failure, Model, Observation, Role, Station, Unknown};
 use abbe::{Class, Description, Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
@@ -128,6 +129,7 @@ impl<'a> Setup<'a> {
     ) -> Result<Self, Diagnostics> {
         let mut ideal = ideal_model(manipulator, map);
         ideal.ranges = ranges(rows);
+        ideal.stated_freedom *= f64::from(u8::from(map.states_uncertainty()));
         let description = ideal.manipulator.description();
         let mut real = ideal.clone();
         let declared = description.sources.len() - terms;
@@ -279,8 +281,7 @@ impl<'a> Setup<'a> {
 /// Returns the range of each joint variable; empty without rows.
 fn ranges(rows: &[Observation]) -> Vec<[f64; 2]> {
     let values = |i: usize| rows.iter().map(move |row| row.q[i]);
-    let range = |i| values(i).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
-    (0..rows.first().map_or(0, |row| row.q.len())).map(range).collect()
+    (0..rows.first().map_or(0, |row| row.q.len())).map(|i| range_of(values(i))).collect()
 }
 
 /// Residual, as a share of the arm length, above which an initial placement is far.

@@ -5,7 +5,7 @@ use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cro
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Motion;
-use abbe_spec::option::ROBUST_TUKEY;
+use abbe_spec::option::{ONLY_PLACEMENT, ROBUST_TUKEY};
 
 use super::joint_profiles::JointProfiles;
 use super::magnitude::OwnMagnitude;
@@ -15,7 +15,7 @@ use super::priors::Prior;
 use super::setup::Setup;
 use super::terms::{Basis, ErrorSite, Term};
 use crate::data::Data;
-use abbe_study::number::{counted, digits};
+use abbe_study::number::digits;
 use abbe_study::{Notes, mistake};
 
 /// Result of the fit.
@@ -41,6 +41,7 @@ pub(super) struct Solved<'a> {
 /// Fits the complete model and cross-validates it.
 ///
 /// The manipulator has the sources of the spec, then copies of the `own` ones, then the `terms`.
+/// With too few rows for the errors of the machine, only the places are fitted.
 pub(super) fn solve<'a>(
     setup: &Setup<'a>,
     data: &Data,
@@ -56,12 +57,15 @@ pub(super) fn solve<'a>(
     let expected = simple.expected(&[]).map_err(diagnose)?;
     let simple_x = fit(&simple, rows, &Options { expected, ..options.clone() }).map_err(diagnose)?.x;
 
+    let only = settings.only_placement;
+    let (own, terms) = if only { Default::default() } else { (own, terms) };
     let mut magnitudes = (setup.declared..).map(Unknown::Magnitude);
     let of_own: Vec<Unknown> = magnitudes.by_ref().take(own.len()).collect();
     let of_terms = magnitudes.take(terms.len());
     // Of equivalent unknowns, magnitudes named in the spec are kept before errors of frames, and
     // terms after them.
-    let model = setup.real.with(of_own.into_iter().chain(setup.constants()).chain(of_terms).collect());
+    let constants = if only { setup.base_and_tool() } else { setup.constants() };
+    let model = setup.real.with(of_own.into_iter().chain(constants).chain(of_terms).collect());
     let fitted = |model: &Model, prior: Prior| -> Result<Fit, Failure> {
         let mut priors = prior.for_model(model)?;
         let share = prior.share();
@@ -92,6 +96,14 @@ pub(super) fn solve<'a>(
     {
         prior = next;
         found = validated(prior);
+    }
+    if let (Err(failure @ Failure::TooFew { .. }), false) = (&found, only || simple.unknowns.is_empty()) {
+        let settings = Settings { only_placement: true, ..settings.clone() };
+        let mut solved = solve(setup, data, &[], &[], &settings, notes)?;
+        solved.notes.push(format!(
+            "note: {failure}: no error of the machine was fitted, only the places, as by `{ONLY_PLACEMENT}`"
+        ));
+        return Ok(solved);
     }
     let warning = match settings.loss {
         Loss::Squares => outliers::warning(&model, data, found.as_ref().ok().map(|(fit, _)| fit)),
@@ -126,6 +138,11 @@ pub(super) fn solve<'a>(
 }
 
 impl Solved<'_> {
+    /// Returns whether no error of the machine was fitted.
+    pub(super) fn is_placement(&self) -> bool {
+        self.model.unknowns == self.simple.unknowns
+    }
+
     /// Returns the terms that the fit does not hold at zero.
     pub(super) fn determined_terms(&self) -> Vec<Term> {
         let first = self.model.unknowns.len() - self.terms.len();
@@ -177,19 +194,6 @@ fn embedded(from: &Model, x: &[f64], to: &Model) -> Vec<f64> {
 
 pub(super) fn diagnose(failure: &Failure, data: &Data) -> Diagnostics {
     match failure {
-        Failure::Observation { .. } | Failure::Machine(_) | Failure::Untouched { .. } => {
-            mistake::whole(&data.file, failure)
-        }
-        Failure::TooFew { numbers, configurations, rank } => {
-            let message = format!(
-                "{} at {} for {rank} or more unknowns: no degrees of freedom remain for a test",
-                counted(*numbers, "independent value", "independent values"),
-                counted(*configurations, "configuration", "configurations")
-            );
-            let help = "measure at more configurations, until there are twice as many values as unknowns; \
-             repeated visits do not count";
-            mistake::with_help(&data.file, message, help)
-        }
         Failure::NotConverged { .. } => {
             let help = format!(
                 "if the data have outliers, try `{ROBUST_TUKEY}`; if joint zeros or units may be \
@@ -197,5 +201,6 @@ pub(super) fn diagnose(failure: &Failure, data: &Data) -> Diagnostics {
             );
             mistake::with_help(&data.file, failure, help)
         }
+        failure => mistake::whole(&data.file, failure),
     }
 }

@@ -28,6 +28,7 @@ pub struct IdentifiedSpec {
 
 impl FoundModel {
     /// Adds the identified errors to `text`, the nominal spec. `path` is the name of the new file.
+    /// Without errors of the machine the text remains as it is.
     ///
     /// The result is parsed again; the function fails if it is not a valid spec. Table files are
     /// resolved relative to `path`.
@@ -37,6 +38,9 @@ impl FoundModel {
         text: &str,
         path: &str,
     ) -> Result<IdentifiedSpec, Diagnostics> {
+        if self.is_placement {
+            return Ok(IdentifiedSpec { text: text.to_owned(), added: String::new() });
+        }
         let is_frame = |name: &str| spec.frames.iter().any(|frame| frame.name == name);
         let base = free_name("ground", |i| format!("ground {i}"), is_frame);
         let sources = self.sources(spec, &base) + &self.unexplained_sources(spec) + &self.inputs(spec);

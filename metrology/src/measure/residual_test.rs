@@ -34,7 +34,7 @@ impl ResidualTest {
         }
         let of_fit = |fit: &Fit| {
             let (factor, freedom) = (fit.sigma, fit.freedom);
-            Some(Self { factor, freedom, p: deviation_beyond(factor, freedom) })
+            (freedom > 0.0).then(|| Self { factor, freedom, p: deviation_beyond(factor, freedom) })
         };
         if let Some(placed) = placed {
             return Ok(of_fit(placed));

@@ -6,7 +6,7 @@ pub mod options;
 mod report;
 mod sets;
 
-use abbe::analysis::sampling::closes;
+use abbe::analysis::sampling::{closes, range_of};
 use abbe::analysis::{Configuration, Workspace, joint_samples, random_joint_samples};
 use abbe::identify::{
     Criterion, Design, Failure, Figures, Identifiable, Measurement, Model, Objective, Observation, knowable,
@@ -236,9 +236,7 @@ impl Plan {
         let inputs = self.machine.spec.inputs.iter().enumerate().filter(|(_, input)| has_range(input));
         let inputs = inputs.map(|(i, input)| {
             let values = rows.iter().map(|row| row.u[i]);
-            let between = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], value| {
-                [least.min(value), largest.max(value)]
-            });
+            let between = range_of(values);
             Input { name: input.name.clone(), unit: input.unit.clone(), between }
         });
         inputs.collect()

@@ -87,6 +87,7 @@ fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
         folds: 5,
         time: None,
         points: false,
+        only_placement: false,
     };
     Identify {
         machine: nominal(),

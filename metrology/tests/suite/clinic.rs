@@ -173,8 +173,14 @@ compliance = { diagonal = [0, 0, 0, 0, "3e-10/(N*mm)", "3e-10/(N*mm)"] }
     };
     let (data, test) = (measured(150, None, 1), measured(100, Some(0.0), 2));
     let figures = |data: &Data, test: &Data| {
-        let settings =
-            Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+        let settings = Settings {
+            loss: Loss::Squares,
+            prior: Prior::Share(0.01),
+            folds: 5,
+            time: None,
+            points: false,
+            only_placement: false,
+        };
         let job = Identify {
             machine: nominal.clone(),
             map: shipped_map(&nominal),

@@ -54,8 +54,14 @@ fn measured(samples: usize, near: bool, seed: u64) -> Data {
 
 /// Identifies the machine near home; returns the report and the machine of the written spec.
 fn identified(seed: u64, test: Option<Data>) -> (Report, Machine) {
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 5,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let job = Identify {
         machine: ur5(),
         map: map(),

@@ -62,8 +62,14 @@ fn measured(samples: usize, seed: u64) -> Data {
 }
 
 fn identified(map: &Map, test: &Data) -> Report {
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 5,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let job = Identify {
         machine: ur5(),
         map: map.clone(),
@@ -119,8 +125,14 @@ fn inline_inputs_are_kept() {
     let line = format!("{}inputs = {{ {} }}\n{}", "", entries.join(", "), "");
     let text = format!("{line}{head}{}", rest.replace(FOLLOWS, ""));
     let map = Map::parse("map.toml", &text, &nominal.spec).unwrap();
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 5,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let mut data = measured(150, 1);
     data.observations.iter_mut().for_each(|row| row.u = vec![0.0; 2].into());
     let job = Identify {

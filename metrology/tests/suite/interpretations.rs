@@ -71,8 +71,14 @@ fn read(text: &str, map: &Map) -> Result<Data, String> {
 }
 
 fn identified(map: &Map, text: &str) -> Result<f64, String> {
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 5,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let data = read(text, map)?;
     let job = Identify {
         machine: ur5(),
@@ -268,8 +274,14 @@ fn impossible_lengths_are_refused() {
     };
     let identified = |data: Data| {
         let mut heard = RecordedNotes::default();
-        let settings =
-            Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+        let settings = Settings {
+            loss: Loss::Squares,
+            prior: Prior::Share(0.01),
+            folds: 5,
+            time: None,
+            points: false,
+            only_placement: false,
+        };
         let job = Identify {
             machine: ur5(),
             map: map.clone(),

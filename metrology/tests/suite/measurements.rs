@@ -64,8 +64,14 @@ fn measurements(map: &Map, samples: usize, seed: u64) -> Data {
 }
 
 fn identify(map: &Map, data: Data) -> Identify {
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 10,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     Identify {
         machine: ur5(),
         map: map.clone(),

@@ -104,8 +104,14 @@ fn measured(machine: &Machine, map: &Map, data: &Data) -> Result<Vec<String>, St
 
 /// Returns the outcome of an identification and its warnings.
 fn identified(machine: &Machine, map: &Map, data: &Data) -> (Result<(), String>, Vec<String>) {
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 5,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let job = Identify {
         machine: machine.clone(),
         map: map.clone(),

@@ -79,8 +79,14 @@ fn measured(truth: &str, rows: usize, seed: u64) -> Data {
 fn identified(data: &Data, terms: &[Family]) -> Report {
     let machine = machine(&ur5(""));
     let map = map(&machine);
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 10,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let (data, terms, harmonics) = (data.clone(), terms.to_vec(), Vec::new());
     let accept = Acceptance::default();
     let job = Identify { machine, map, data, test: None, terms, harmonics, settings, accept };
@@ -282,8 +288,14 @@ fn profiles_refuse_displacements() {
     };
     let observations = job.run(&mut ()).unwrap().observations;
     let data = Data { file: "data.csv".to_owned(), observations, ..Data::default() };
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 5,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let (terms, harmonics, accept) = (vec![Family::Profile], Vec::new(), Acceptance::default());
     let job = Identify { machine: arm, map, data, test: None, terms, harmonics, settings, accept };
     let refused = job.run(&mut ()).unwrap_err().to_string();

@@ -122,8 +122,14 @@ pub(super) fn identify(map: &Map, data: Data, test: Option<Data>) -> Report {
 }
 
 pub(super) fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 10,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     Identify {
         machine: ur5(),
         map: map.clone(),

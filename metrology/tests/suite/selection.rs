@@ -43,8 +43,14 @@ fn identified(terms: &[Family]) -> Report {
     let path = folder.path().join("data.csv");
     std::fs::write(&path, table.csv()).unwrap();
     let data = Data::read(&path, &map).unwrap();
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 10,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let (terms, harmonics, accept) = (terms.to_vec(), Vec::new(), Acceptance::default());
     let job = Identify { machine: nominal, map, data, test: None, terms, harmonics, settings, accept };
     job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"))
@@ -99,8 +105,14 @@ fn drift_is_not_tried_across_stations() {
     observations[40..].iter_mut().for_each(|row| row.station = 1);
     let stations = ["first", "second"].map(str::to_owned).to_vec();
     let data = Data { file: "simulated".to_owned(), observations, stations, ..Data::default() };
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 10,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let (terms, harmonics, accept) = (vec![Family::Drift], Vec::new(), Acceptance::default());
     let job = Identify { machine, map, data, test: None, terms, harmonics, settings, accept };
     let report = job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"));

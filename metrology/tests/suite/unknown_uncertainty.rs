@@ -55,8 +55,14 @@ fn simulated(map: &Map, samples: usize, seed: u64) -> Data {
 }
 
 fn identify(map: &Map, data: Data) -> Result<Report, Diagnostics> {
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 5,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let job = Identify {
         machine: ur5(),
         map: map.clone(),

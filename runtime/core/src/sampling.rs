@@ -145,6 +145,11 @@ pub fn grid([first, last]: [f64; 2], count: usize) -> Vec<f64> {
     (0..count).map(|i| first * (1.0 - fraction(i)) + last * fraction(i)).collect()
 }
 
+/// Returns the smallest and the largest value; infinite and reversed without values.
+pub fn range_of(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)])
+}
+
 /// Returns the home configuration.
 pub fn home(description: &Description) -> Vec<f64> {
     description.variables.iter().map(|variable| variable.home).collect()

@@ -92,6 +92,7 @@ pub(super) fn identified_from(
         folds: 5,
         time: None,
         points: false,
+        only_placement: false,
     };
     let (terms, harmonics) = (Vec::new(), Vec::new());
     let job = Identify {

@@ -137,8 +137,14 @@ fn calibrated(case: &Case, sign: f64, seed: u64) -> Option<Report> {
             parsed(&text.replace("[-0.1, 0.05, 0.001, -0.001, 0]", "[0, 0, 0, 0, 0]"))
         }
     };
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 2, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 2,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let job = Identify {
         machine: nominal(),
         map,

@@ -139,8 +139,14 @@ fn calibrated(truth: &str, at: Places, seed: u64) -> Machine {
     let data = Data { file: "data.csv".to_owned(), observations, ..Data::default() };
     let nominal = machine(ARM);
     let map = Map::parse("map.toml", MAP, &nominal.spec).expect("a map");
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
+    let settings = Settings {
+        loss: Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 10,
+        time: None,
+        points: false,
+        only_placement: false,
+    };
     let (terms, harmonics, accept) = (Vec::new(), Vec::new(), Acceptance::default());
     let job = Identify { machine: nominal, map, data, test: None, terms, harmonics, settings, accept };
     let report = job.run(&mut ()).expect("it is identified");

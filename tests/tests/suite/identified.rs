@@ -65,6 +65,7 @@ fn job(nominal: &str, base: &str, layout: &str, data: &Data) -> Identify {
         folds: 10,
         time: None,
         points: false,
+        only_placement: false,
     };
     let (data, terms, harmonics) = (data.clone(), Vec::new(), Vec::new());
     Identify { machine, map, data, test: None, terms, harmonics, settings, accept: Acceptance::default() }

@@ -1,9 +1,9 @@
 //! Autocollimator, electronic level: inclination of a direction on the tool towards a fixed
 //! direction.
 
-use super::super::vectors::{cross, dot};
 use super::geometry::Geometry;
 use super::kind::{Evaluation, InstrumentKind, Observable, SizeInformation};
+use abbe_analysis::sampling::vectors::{cross, dot};
 
 /// `asin(n · R m)`, in rad.
 pub(super) static ANGLE: InstrumentKind = InstrumentKind {

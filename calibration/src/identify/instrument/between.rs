@@ -1,8 +1,8 @@
 //! Calliper, length bar: distance of two targets on the tool.
 
-use super::super::vectors::{difference, dot, unit};
 use super::geometry::Geometry;
 use super::kind::{Evaluation, InstrumentKind, Observable, Reference};
+use abbe_analysis::sampling::vectors::{dot, subtract as difference, unit};
 
 /// `|p_1 − p_2|`.
 pub(super) static BETWEEN: InstrumentKind = InstrumentKind {

@@ -1,8 +1,8 @@
 //! Centre point, nest: a target is held at a fixed point.
 
-use super::super::vectors::unit_axis;
 use super::geometry::Geometry;
 use super::kind::{Evaluation, InstrumentKind, Observable, SizeInformation};
+use abbe_core::Pose;
 
 /// `p − c = 0`.
 pub static CONTACT: InstrumentKind = InstrumentKind {
@@ -18,7 +18,7 @@ pub static CONTACT: InstrumentKind = InstrumentKind {
 
 /// Evaluates `(p − c)_k` in the axes of `F_0`; its gradients are `±e_k`.
 pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluation {
-    let (k, along) = (observable.axis, unit_axis(observable.axis));
+    let (k, along) = (observable.axis, Pose::IDENTITY.0[observable.axis]);
     Evaluation {
         value: geometry.target(observable.targets[0])[k] - geometry.fixture(observable.fixture)[k],
         along,

@@ -1,8 +1,8 @@
 //! Laser interferometer, linear scale: distance of a target from its position in the previous row.
 
-use super::super::vectors::{difference, dot, unit};
 use super::geometry::Geometry;
 use super::kind::{Evaluation, InstrumentKind, Observable, Reference};
+use abbe_analysis::sampling::vectors::{dot, subtract as difference, unit};
 
 /// `|p − p_0|`.
 pub(super) static DISPLACEMENT: InstrumentKind = InstrumentKind {

@@ -1,8 +1,8 @@
 //! Ballbar, draw-wire: distance of a target from a fixed point.
 
-use super::super::vectors::{difference, dot, unit};
 use super::geometry::Geometry;
 use super::kind::{Evaluation, InstrumentKind, Observable};
+use abbe_analysis::sampling::vectors::{dot, subtract as difference, unit};
 
 /// `|p − c|`.
 pub(super) static DISTANCE: InstrumentKind = InstrumentKind {

@@ -1,6 +1,6 @@
 //! Fixtures: points and directions that stand still in `F_0`.
 
-use super::super::vectors::{cross, unit, unit_axis};
+use abbe_analysis::sampling::vectors::{tangents, unit};
 
 /// An object that stands still in `F_0`, at an approximately known position or direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,15 +58,4 @@ impl FixtureGeometry {
             Self::Direction(n) => unit(*n),
         }
     }
-}
-
-/// Returns two unit vectors perpendicular to `n` and to each other.
-///
-/// The first leans towards the coordinate axis with the smallest component of `n`.
-pub fn tangents(n: [f64; 3]) -> [[f64; 3]; 2] {
-    let n = unit(n);
-    let least = (0..3).min_by(|i, j| n[*i].abs().total_cmp(&n[*j].abs())).unwrap_or(0);
-    let axis = unit_axis(least);
-    let first = unit(core::array::from_fn(|i| axis[i] - n[least] * n[i]));
-    [first, cross(n, first)]
 }

@@ -1,8 +1,8 @@
 //! Dial indicator with a flat tip: coordinate of a target along a fixed direction.
 
-use super::super::vectors::{difference, dot};
 use super::geometry::Geometry;
 use super::kind::{Evaluation, InstrumentKind, Observable, SizeInformation};
+use abbe_analysis::sampling::vectors::{dot, subtract as difference};
 
 /// `n · (p − a)`.
 pub(super) static INDICATOR: InstrumentKind = InstrumentKind {

@@ -8,7 +8,7 @@
 //! u = fx (x g + 2 p1 x y + p2 (r² + 2 x²)) + cx,   v = fy (y g + p1 (r² + 2 y²) + 2 p2 x y) + cy
 //! ```
 
-use super::super::vectors::{dot, unit};
+use abbe_analysis::sampling::vectors::{dot, unit};
 use abbe_core::Pose;
 
 /// Number of the intrinsic parameters of a camera.

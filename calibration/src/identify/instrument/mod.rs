@@ -23,7 +23,7 @@ mod point;
 mod rotation;
 mod sphere;
 
-pub use fixture::{Fixture, FixtureGeometry, KnownDistance, tangents};
+pub use fixture::{Fixture, FixtureGeometry, KnownDistance};
 pub(super) use geometry::Geometry;
 pub(super) use kind::Evaluation;
 pub use kind::{InstrumentKind, Observable, Reference, SizeInformation};

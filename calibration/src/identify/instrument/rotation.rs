@@ -1,8 +1,8 @@
 //! Rotary-axis calibrator, angular interferometer: rotation of the tool since the previous row.
 
-use super::super::vectors::{dot, unit};
 use super::geometry::Geometry;
 use super::kind::{Evaluation, InstrumentKind, Observable, Reference, SizeInformation};
+use abbe_analysis::sampling::vectors::{dot, unit};
 use abbe_core::rotation_vector;
 
 /// Angle of `R R_0ᵀ`, in rad.

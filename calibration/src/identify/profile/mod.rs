@@ -219,7 +219,8 @@ impl Profiles {
     pub fn add_uncertainty(&self, fit: &mut Fit) -> f64 {
         let numbers = fit.numbers as f64 - fit.identifiable.kept.len() as f64;
         let left = (1.0 - self.effective() / numbers.max(1.0)).max(0.1);
-        fit.freedom = (fit.freedom * left).max(1.0);
+        let spent = fit.freedom - (fit.freedom * left).max(1.0);
+        (fit.freedom, fit.coverage_freedom) = (fit.freedom - spent, fit.coverage_freedom - spent);
         fit.sigma /= left.sqrt();
         fit.covariance /= left;
         let places: Vec<Option<usize>> =

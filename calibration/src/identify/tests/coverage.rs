@@ -76,7 +76,7 @@ fn coverage(model: &Model, list: &[Observation], sizes: [f64; 2], loss: Loss, ma
         for (k, act_as) in &found.identifiable.redundant {
             act_as.iter().for_each(|(j, factor)| expected[*j] += factor * truth[*k]);
         }
-        let factors = [0.6827, 0.95].map(|share| student_factor(share, found.freedom));
+        let factors = [0.6827, 0.95].map(|share| student_factor(share, found.coverage_freedom));
         for (k, deviation) in found.standard_deviations().iter().enumerate() {
             let Some(deviation) = deviation else { continue };
             let z = (found.x[k] - expected[k]).abs() / deviation;
@@ -129,6 +129,38 @@ fn visits_of_a_configuration_count_once() {
     for own in [0.1, 0.0] {
         let [_, one, two, _] = coverage(&model, &list, [own, 0.02], Loss::Squares, 80);
         assert!((one - 0.68).abs() <= 0.06 && (two - 0.95).abs() <= 0.03, "{own}: {one} {two}");
+    }
+}
+
+/// The 95 % intervals hold with any number of degrees of freedom, if stated uncertainties are as
+/// uncertain as they are taken to be: `2/χ²` with two degrees of freedom times the variance.
+#[test]
+fn intervals_of_few_degrees_of_freedom_hold() {
+    let all = machine(1);
+    let many = planned(&all, 60, 1);
+    let kept = identifiable(&all, &many, &vec![0.0; all.unknowns.len()]).unwrap().kept;
+    let list = planned(&all, 4, 1);
+    for freedom in [0, 1, 2, 3, 10] {
+        let model = all.with(kept.iter().take(12 - freedom).map(|k| all.unknowns[*k]).collect());
+        let (mut within, mut count, mut failed) = (0.0, 0.0, 0);
+        for seed in 0..200 {
+            let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+            let variance = -1.0 / random.random_range(0.0..1.0_f64).ln();
+            let (truth, data) = drawn(&model, &list, [0.0, 0.02 * variance.sqrt()], &mut random);
+            // Instruments that are much worse than stated can lead too far from the machine.
+            let Ok(found) = fit(&model, &data, &Options::default()) else {
+                failed += 1;
+                continue;
+            };
+            assert_eq!(found.freedom, freedom as f64);
+            let factor = student_factor(0.95, found.coverage_freedom);
+            for (k, deviation) in found.standard_deviations().iter().enumerate() {
+                let is_within = (found.x[k] - truth[k]).abs() <= factor * deviation.unwrap();
+                (within, count) = (within + f64::from(u8::from(is_within)), count + 1.0);
+            }
+        }
+        println!("{freedom}: {}, {failed} failed", within / count);
+        assert!(failed <= 5 && (0.90..=0.98).contains(&(within / count)), "{freedom}: {within} of {count}");
     }
 }
 

@@ -75,6 +75,11 @@ fn counts_are_those_of_theory() {
 fn too_little_is_said() {
     let model = Model::ideal(&Pps, vec![[0.0; 3]], EXACT);
     let model = model.with(model.constants(false));
+    // As many numbers as unknowns of these rows, but other rows have more of them.
+    let data = sampled(&Pps, &[0, 1, 2, 3, 4, 5], 6, 1);
+    assert!(matches!(fit(&model, &data, &Options::default()), Err(Failure::TooFew { numbers: 18, .. })));
+    // Nothing can be tested with 21 numbers of 21 unknowns, without a stated uncertainty.
+    let model = Model { stated_freedom: 0.0, ..model };
     let data = sampled(&Pps, &[0, 1, 2, 3, 4, 5], 7, 1);
     assert!(matches!(fit(&model, &data, &Options::default()), Err(Failure::TooFew { numbers: 21, .. })));
     assert!(matches!(

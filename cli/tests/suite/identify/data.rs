@@ -113,11 +113,17 @@ fn gross_errors_are_named_and_left_out() {
 #[test]
 fn too_few_rows() {
     let bench = Bench::new(POINT);
+    // Eight rows are enough for the places, two for nothing.
     let data = bench.file("data.csv", &bench.simulated(&["--samples", "8"]));
+    let run = abbe(&["identify", "ur5", path(&data), "--map", path(&bench.map), "--json"]);
+    let note = "24 independent values were measured (8 configurations) for 24 or more unknowns: no error of \
+                the machine was fitted, only the places";
+    assert!(run.status == 0 && run.stderr.contains(note), "{}", run.stderr);
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "2"]));
     bench.refused(
         &data,
         &[
-            "24 independent values at 8 configurations for 24 or more unknowns",
+            "6 independent values were measured (2 configurations) for 6 or more unknowns",
             "measure at more configurations",
         ],
     );

@@ -18,7 +18,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::dh::table::{DhTable, motion};
 use crate::export::RealMachine;
-use abbe::analysis::sampling::vectors::cross;
+use abbe::analysis::sampling::vectors::{cross, dot};
 
 /// Largest ratio of an eigenvalue of JᵀJ to the largest one at which it is left out.
 const NEGLIGIBLE: f64 = 1e-6;
@@ -41,9 +41,9 @@ pub(super) fn fit(table: &mut DhTable, machine: &RealMachine) {
             let r = weighted(deviation(Orientation::RotationVector, &pose, real), reach);
             let columns = columns(table, &configuration.q, &pose, reach);
             for (i, column) in columns.iter().enumerate() {
-                right[i] += dot(column, &r);
+                right[i] += dot(*column, r);
                 for (j, other) in columns.iter().enumerate().take(i + 1) {
-                    square[(i, j)] += dot(column, other);
+                    square[(i, j)] += dot(*column, *other);
                     square[(j, i)] = square[(i, j)];
                 }
             }
@@ -109,8 +109,4 @@ fn weighted([x, y, z, a, b, c]: [f64; 6], reach: f64) -> [f64; 6] {
 
 fn is_angle(number: DhNumber) -> bool {
     number.motion().0 == Motion::Rotation
-}
-
-fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

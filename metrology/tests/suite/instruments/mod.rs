@@ -133,6 +133,7 @@ fn identification(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Resu
         folds: 5,
         time: None,
         points: false,
+        only_placement: false,
     };
     let job = Identify {
         machine: ur5(),

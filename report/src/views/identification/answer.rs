@@ -97,8 +97,7 @@ fn significant_errors(report: &Report) -> Vec<&Parameter> {
 
 fn no_significant_error(report: &Report) -> Option<String> {
     let count = of_machine(report).count();
-    significant_errors(report)
-        .is_empty()
+    (count > 0 && significant_errors(report).is_empty())
         .then(|| format!("None of the {count} errors of the machine differs from zero with 95 % confidence."))
 }
 
@@ -201,6 +200,11 @@ fn residuals(report: &Report) -> String {
     if estimated {
         return "The uncertainty of the instruments was estimated from the residuals, so the residuals \
                 cannot show errors that the model does not have."
+            .to_owned();
+    }
+    if report.certainty.freedom == 0.0 {
+        return "There are as many independent values as unknowns, so nothing could be tested: σ is that of \
+                the stated uncertainties."
             .to_owned();
     }
     residual_verdict(report.uncertainty_factor, report.certainty.p_of_factor, "the model does not have", "")

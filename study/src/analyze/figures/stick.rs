@@ -1,7 +1,7 @@
 //! Stick figure of the manipulator at home.
 
 use abbe::analysis::Configuration;
-use abbe::analysis::sampling::vectors::distance;
+use abbe::analysis::sampling::{range_of, vectors::distance};
 use abbe::{Error, Manipulator, Pose, tool_pose};
 use abbe_spec::{Closure, Spec};
 use serde::Serialize;
@@ -47,8 +47,8 @@ impl Stick {
         let tool = tool_pose(description, &transforms, &[]);
         all.push(("tool point".to_owned(), tool));
         let size = (0..3).map(|axis| {
-            let along = all.iter().map(|(_, pose)| pose.position()[axis]);
-            along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+            let [least, largest] = range_of(all.iter().map(|(_, pose)| pose.position()[axis]));
+            largest - least
         });
         let size = size.fold(0.0, f64::max);
         let size = if size > 0.0 { size } else { 1.0 };

@@ -92,7 +92,14 @@ pub(crate) fn of_data(machine: &Machine, map: &Map, data: &Path, asked: Asked) -
         }
         Asked::Identify(terms, loss) => {
             let data = Data::read(data, &map)?;
-            let settings = Settings { loss, prior: Prior::Share(0.01), folds: 4, time: None, points: true };
+            let settings = Settings {
+                loss,
+                prior: Prior::Share(0.01),
+                folds: 4,
+                time: None,
+                points: true,
+                only_placement: false,
+            };
             let job = Identify { machine, map, data, test: None, terms, harmonics: vec![], settings, accept };
             job.run(&mut notes()).map(drop)
         }
