@@ -75,6 +75,8 @@ pub(super) fn solve<'a>(
         }
         let first = priors.len() - terms.len();
         for (prior, term) in priors[first..].iter_mut().zip(terms).filter(|_| share > 0.0) {
+            // Richer terms have 1 mrad, or 1 mm per metre of arm.
+            let share = if term.basis == Basis::One { share } else { share.min(1e-3) };
             *prior = Some(share * term.scale(setup));
         }
         let at = embedded(&simple, &simple_x, model);
