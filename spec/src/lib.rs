@@ -49,6 +49,5 @@ pub use document::Document;
 pub use manipulator::{
     Axes, Beam, Cause, ChainNumber, Closure, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
     DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, Loop, MAGNITUDE, Magnitude, Matrix,
-    Parameter, Point, Source, Spec, TABLES, Tree, Uncertain, Undetermined, Variable, as_identifier,
-    check_name, rules,
+    Parameter, Point, Source, Spec, TABLES, Tree, Uncertain, Variable, as_identifier, check_name, rules,
 };

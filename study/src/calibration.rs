@@ -1,15 +1,12 @@
 //! Errors of a calibration: what remains between an identified machine and the real one.
 //!
-//! Two independent parts add up. The noise of the measurements gives the found errors the
-//! covariance C of the spec. Errors that the measurements could not determine move points of the
-//! tool that were not measured by the directions U of the spec, so that there the covariance is
-//! `C + U Uᵀ`.
+//! The noise of the measurements and what they could not determine give the errors of the machine
+//! the covariance of the spec, relative to a base and a target that are set up anew.
 
 use std::sync::Arc;
 
-use abbe::analysis::sampling;
 use abbe::identify::{Failure, Measurement, Model, Observation, Role, Uncertainty, Unknown};
-use abbe::{Error, Manipulator, Pose};
+use abbe::{Manipulator, Pose};
 use abbe_spec::{Identified, Source, Spec, Uncertain};
 
 /// Name of all random sources of a calibration together.
@@ -17,9 +14,6 @@ const CALIBRATION: &str = "calibration";
 
 /// Share of a variance below which what remains of it is rounding.
 const ROUNDING: f64 = 1e-12;
-
-/// Distance up to which two points of the tool are the same one, as a share of the arm length.
-const SAME_POINT: f64 = 1e-5;
 
 /// Step of a joint for differences, in rad or the length unit.
 const STEP: f64 = 1e-5;
@@ -33,19 +27,9 @@ pub struct CalibrationErrors {
 }
 
 impl CalibrationErrors {
-    /// Returns the errors at points that were measured, from the covariance alone; or at any other
-    /// points of the tool.
-    pub fn new(spec: &Spec, is_measured: bool) -> Self {
-        let (found, hidden) = (&spec.covariance, &spec.undetermined);
-        let mut of = found.of.clone();
-        let mut parts = independent_parts(&found.rows);
-        if !is_measured {
-            of.extend(&hidden.of);
-            parts.iter_mut().for_each(|part| part.resize(of.len(), 0.0));
-            let behind = |row: &Vec<f64>| [vec![0.0; found.of.len()], row.clone()].concat();
-            parts.extend(hidden.rows.iter().map(behind));
-        }
-        Self { of, parts }
+    /// Returns the errors that the covariance of a spec says.
+    pub fn new(spec: &Spec) -> Self {
+        Self { of: spec.covariance.of.clone(), parts: independent_parts(&spec.covariance.rows) }
     }
 }
 
@@ -139,31 +123,10 @@ impl PredictedErrors {
     }
 }
 
-/// Returns the pose of the tool in the last frame, from the nominal parameters.
-pub(crate) fn tool_in_last_frame(manipulator: &dyn Manipulator) -> Result<Pose, Error> {
-    let description = manipulator.description();
-    let home: Vec<f64> = description.variables.iter().map(|variable| variable.home).collect();
-    let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
-    manipulator.transforms(&home, &sampling::nominal_parameters(description), &mut transforms)?;
-    Ok(transforms[description.frames.len()])
-}
-
-/// Returns whether the measurements of an identified machine determine the errors of points of the
-/// last frame. Those of a spec that states nothing undetermined do.
-pub fn is_measured(spec: &Spec, manipulator: &dyn Manipulator, points: &[[f64; 3]]) -> bool {
-    let parameters = sampling::nominal_parameters(manipulator.description());
-    let same = |arm: f64| points.iter().all(|point| spec.undetermined.has_point(*point, SAME_POINT * arm));
-    spec.undetermined.of.is_empty() || sampling::arm_length(manipulator, &parameters).is_ok_and(same)
-}
-
 /// Returns the uncertainty of a calibration as independent normal sources: their covariance is the
-/// spec's `[covariance]`, and with a tool point that was not measured they include its
-/// `[undetermined]`. There are none without a covariance.
-pub fn calibration_errors(spec: &Spec, is_measured: bool) -> Vec<Source> {
-    if spec.covariance.of.is_empty() {
-        return Vec::new();
-    }
-    let CalibrationErrors { of, parts } = CalibrationErrors::new(spec, is_measured);
+/// spec's `[covariance]`. There are none without one.
+pub fn calibration_errors(spec: &Spec) -> Vec<Source> {
+    let CalibrationErrors { of, parts } = CalibrationErrors::new(spec);
     let count = parts.len();
     let source = |(k, part): (usize, Vec<f64>)| {
         let quantities = of.iter().map(|one| Uncertain::Identified(*one)).zip(part);

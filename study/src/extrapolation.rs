@@ -41,11 +41,10 @@ pub struct ToolPointDeviation {
 
 /// Counts the configurations outside the ranges on which the errors of a spec were fitted, and
 /// warns of them with their uncertainty. `what` names the configurations, in the plural: `rows`.
-/// Returns `None` if there are none. `is_measured` is true if the tool is the fitted one.
+/// Returns `None` if there are none.
 pub fn warn_of_extrapolation<'r>(
     spec: &Spec,
     manipulator: &dyn Manipulator,
-    is_measured: bool,
     what: &str,
     configurations: impl Iterator<Item = (&'r [f64], &'r [f64])>,
     notes: &mut dyn Notes,
@@ -69,7 +68,7 @@ pub fn warn_of_extrapolation<'r>(
     if outside.is_empty() {
         return None;
     }
-    let standard_deviation = ToolPointDeviation::new(spec, manipulator, is_measured, &outside);
+    let standard_deviation = ToolPointDeviation::new(spec, manipulator, &outside);
     let named = spec.fitted.iter().zip(&counts).filter(|(_, count)| **count > 0);
     let named = named.map(|(fitted, count)| {
         let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
@@ -88,15 +87,9 @@ pub fn warn_of_extrapolation<'r>(
 
 impl ToolPointDeviation {
     /// Returns the deviations within the fitted ranges and at configurations outside of them;
-    /// `None` if there are none or the spec states no covariance. `is_measured` is true if the
-    /// tool is the fitted one.
-    pub fn new(
-        spec: &Spec,
-        manipulator: &dyn Manipulator,
-        is_measured: bool,
-        outside: &[(&[f64], &[f64])],
-    ) -> Option<Self> {
-        let errors = CalibrationErrors::new(spec, is_measured);
+    /// `None` if there are none or the spec states no covariance.
+    pub fn new(spec: &Spec, manipulator: &dyn Manipulator, outside: &[(&[f64], &[f64])]) -> Option<Self> {
+        let errors = CalibrationErrors::new(spec);
         let prediction = Prediction::new(spec, manipulator, &errors, [0.0; 3])?;
         let step = outside.len().div_ceil(SAMPLES).max(1);
         let beyond = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));

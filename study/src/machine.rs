@@ -13,7 +13,7 @@ use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::option::{NamedOption, option};
 use abbe_spec::{Diagnostics, Document, Factor, Magnitude, Source, Spec};
 
-use crate::calibration::{calibration_errors, has_magnitude, is_measured, tool_in_last_frame};
+use crate::calibration::{calibration_errors, has_magnitude};
 use crate::changes::Changes;
 use crate::table_paths::with_table_paths;
 use crate::{mistake, open_loops};
@@ -130,8 +130,7 @@ impl Machine {
         let spec = &self.spec;
         let own = spec.sources.iter().enumerate().filter(|(i, _)| !has_magnitude(spec, *i));
         let magnitudes = own.filter_map(|(_, source)| magnitude_error(source));
-        let added: Vec<Source> =
-            magnitudes.chain(calibration_errors(spec, self.tool_point_is_measured())).collect();
+        let added: Vec<Source> = magnitudes.chain(calibration_errors(spec)).collect();
         let is_added = |source: &Source| is_magnitude_error(source) || source.is_calibration_error();
         if spec.sources.iter().any(is_added) || !added.is_empty() {
             let sources = &mut Arc::make_mut(&mut self.spec).sources;
@@ -144,17 +143,6 @@ impl Machine {
     /// Returns true if the spec has the covariance of a calibration.
     pub fn is_calibrated(&self) -> bool {
         !self.spec.covariance.of.is_empty()
-    }
-
-    /// Returns false if the errors of the machine were identified at other points of its tool than
-    /// the tool point, and were not determined there.
-    fn tool_point_is_measured(&self) -> bool {
-        if self.spec.undetermined.of.is_empty() {
-            return true;
-        }
-        let manipulator = Interpreter::new(self.spec.clone());
-        let tool = tool_in_last_frame(&manipulator);
-        tool.is_ok_and(|tool| is_measured(&self.spec, &manipulator, &[tool.position()]))
     }
 
     /// Returns the indices of the inputs that changes fix: no workspace varies them.

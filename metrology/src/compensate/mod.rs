@@ -13,7 +13,6 @@ use serde::Serialize;
 use crate::data::{Base, Data, Heading, Layout, Map, Summary, Table, Unusable};
 use crate::running_sums::RunningSums;
 use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
-use abbe_study::other_tool::{OtherTool, warn_of_other_tool};
 use abbe_study::{Machine, Notes, Residuals, RunRecord, finite, mistake, number};
 
 use base_frame::BaseFramePoses;
@@ -57,9 +56,6 @@ pub struct Report {
     /// Rows outside the fitted ranges, with the uncertainty there; `None` if all rows are within
     /// them.
     pub extrapolated: Option<Extrapolation>,
-    /// Uncertainty of the tool point if it is no point at which the errors of the spec were fitted;
-    /// `None` if it is one.
-    pub other_tool: Option<OtherTool>,
     /// Corrected rows, in file order.
     // Empty if `for_each_row` passed them on.
     pub rows: Vec<Row>,
@@ -176,11 +172,7 @@ impl Compensate {
         let data = self.data.completed(map, &*manipulator, &machine.spec);
         let configurations = || data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         let (spec, tool_point) = (&machine.spec, [[0.0; 3]]);
-        let other_tool =
-            warn_of_other_tool(spec, &*manipulator, &tool_point, "rows", &mut configurations(), notes)?;
-        let is_measured = other_tool.is_none();
-        let extrapolated =
-            warn_of_extrapolation(spec, &*manipulator, is_measured, "rows", configurations(), notes);
+        let extrapolated = warn_of_extrapolation(spec, &*manipulator, "rows", configurations(), notes);
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
         let base_frame = BaseFramePoses::new(map, &data);
         let (mut row_summary, mut norms) = (RowSummary::default(), [[RunningSums::default(); 2]; 2]);
@@ -212,7 +204,6 @@ impl Compensate {
             tolerance: *tolerance,
             mobility: task.mobility,
             extrapolated,
-            other_tool,
             before: NormStatistics::new(&norms[0]),
             after: NormStatistics::new(&norms[1]),
             file: Summary { rows: row_summary.rows, unusable: unusable.clone(), ..data.summary() },

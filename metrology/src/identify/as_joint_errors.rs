@@ -34,8 +34,6 @@ pub(super) struct AsJointErrors {
     pub(super) numbers: Vec<FoundNumber>,
     /// Remaining unknowns: index among the kept unknowns, value and standard deviation.
     pub(super) others: Vec<(usize, f64, f64)>,
-    /// Covariance of both, in the order of the kept unknowns.
-    pub(super) covariance: Vec<Vec<f64>>,
     /// Linear forms of the kept unknowns that give the values of both, in the same order.
     pub(super) forms: Vec<Vec<f64>>,
 }
@@ -107,7 +105,7 @@ impl AsJointErrors {
             FoundNumber { name, number, twist, index, value, standard_deviation, correlation }
         };
         let numbers = replaced.into_iter().map(number).collect();
-        Self { numbers, others, covariance: basis.covariance(), forms: basis.forms }
+        Self { numbers, others, forms: basis.forms }
     }
 
     /// Returns the significant errors, with their alternatives.
@@ -276,19 +274,6 @@ impl<'a> ExchangedBasis<'a> {
             (with / (deviation * covariance[(other, other)].max(0.0).sqrt())).abs()
         };
         magnitudes.map(correlation).fold(0.0, f64::max)
-    }
-
-    /// Computes `F C Fᵀ`, where the rows of F are the forms and C is the covariance of the fit.
-    fn covariance(&self) -> Vec<Vec<f64>> {
-        let count = self.forms.len();
-        let half: Vec<Vec<f64>> = self
-            .forms
-            .iter()
-            .map(|form| {
-                (0..count).map(|j| (0..count).map(|i| form[i] * self.fit.covariance[(i, j)]).sum()).collect()
-            })
-            .collect();
-        half.iter().map(|row| self.forms.iter().map(|form| product(row, form)).collect()).collect()
     }
 
     /// Returns the value and the standard deviation of an entry.

@@ -1,68 +1,75 @@
-//! Writes `[covariance]`, the joint covariance of the identified errors, for the spec of the
-//! identified machine.
+//! Writes `[covariance]`, the covariance of the errors of the identified machine, for its spec.
 
+use abbe::Component;
 use abbe_spec::Spec;
 use abbe_spec::edit::TableText;
 use abbe_spec::edit::write::{lines, list, number, quoted};
 
-use super::found_model::FoundModel;
-use super::spec_writer::{ABOVE, constant_name, source_name};
+use super::found_covariance::Uncertain;
+use super::found_model::{FoundModel, FoundTerm};
+use super::spec_writer::{ABOVE, source_name};
 
-/// Identified value: its name in the spec, its row in the covariance, and the divisor that makes it
-/// relative to a magnitude.
-struct Entry {
-    text: String,
-    row: usize,
-    size: f64,
-}
+/// Digits of a covariance: what two errors have in common can be a small part of both.
+const DIGITS: usize = 13;
 
 impl FoundModel {
-    /// Returns the table for all values that are written to the spec; empty if there are none.
+    /// Returns the table for the errors that are written to the spec; empty if there are none.
     pub(super) fn covariance_table(&self, spec: &Spec) -> String {
-        let entries = self.entries(spec);
-        if entries.is_empty() {
+        // The name of each error, its row, and the divisor that makes it relative to a magnitude.
+        let rows = self.covariance.of.iter().enumerate();
+        let rows: Vec<(usize, (String, f64))> =
+            rows.filter_map(|(i, of)| Some((i, self.named(spec, *of)?))).collect();
+        let profiles: Vec<String> = self
+            .profiles
+            .iter()
+            .map(|one| {
+                let source = quoted(&source_name(spec, &one.source_name()));
+                format!("{{ source = {source}, joint = {} }}", quoted(&one.joint))
+            })
+            .collect();
+        let count = rows.len() + profiles.len();
+        if count == 0 {
             return String::new();
         }
-        let covariance = |i: usize, j: usize| {
-            // Reads one triangle only, so that the written matrix is exactly symmetric.
-            let (a, b) = (&entries[i.min(j)], &entries[i.max(j)]);
-            number(self.covariance[a.row][b.row] / (a.size * b.size), 5)
+        let covariance = |i: usize, j: usize| match (rows.get(i), rows.get(j)) {
+            (Some((a, (_, of_a))), Some((b, (_, of_b)))) => self.covariance.between(*a, *b) / (of_a * of_b),
+            (None, None) if i == j => self.profiles[i - rows.len()].standard_deviation.powi(2),
+            _ => 0.0,
         };
-        let row = |i: usize| list((0..entries.len()).map(|j| covariance(i, j)));
+        // Reads one triangle only, so that the written matrix is exactly symmetric.
+        let row = |i: usize| list((0..count).map(|j| number(covariance(i.min(j), i.max(j)), DIGITS)));
         let keys = TableText::with_header(&format!("\n{}[covariance]", ABOVE[1]));
-        let keys = keys.key("of", lines(entries.iter().map(|entry| format!("{{ {} }}", entry.text))));
-        keys.key("rows", lines((0..entries.len()).map(row))).to_string()
+        let names = rows.iter().map(|(_, (text, _))| format!("{{ {text} }}")).chain(profiles);
+        keys.key("of", lines(names)).key("rows", lines((0..count).map(row))).to_string()
     }
 
-    fn entries(&self, spec: &Spec) -> Vec<Entry> {
-        let frames = spec.frames.iter().zip(&self.frames);
-        let constants = frames.flat_map(|(frame, errors)| {
-            let source = source_name(spec, &constant_name(&frame.name));
-            errors.iter().map(move |error| {
-                let text = format!("source = {}, error = \"{}\"", quoted(&source), error.component.name());
-                Entry { text, row: error.row, size: 1.0 }
-            })
-        });
-        let whole = |name: &str, row: usize, size: f64| {
-            // A relative deviation of a magnitude of zero is undefined.
-            (size != 0.0).then(|| Entry { text: format!("source = {}", quoted(name)), row, size })
-        };
-        let written = self.terms.iter().filter(|found| self.is_expressible(spec, found));
-        // A compliance matrix has no single magnitude.
-        let written = written.filter(|found| !self.is_in_full_compliance(found));
-        let terms = self.numbers.iter().chain(written);
-        let terms = terms.filter_map(|found| {
-            whole(&source_name(spec, &self.term_name(spec, found)), found.row, found.magnitude)
-        });
-        let magnitudes = self
-            .magnitudes
-            .iter()
-            .filter_map(|found| whole(&spec.sources[found.source].name, found.row, found.magnitude));
-        let profiles = self.profiles.iter().map(|(row, one)| {
-            let source = quoted(&source_name(spec, &one.source_name()));
-            let text = format!("source = {source}, joint = {}", quoted(&one.joint));
-            Entry { text, row: *row, size: 1.0 }
-        });
-        constants.chain(terms).chain(magnitudes).chain(profiles).collect()
+    /// Returns an error as the spec names it, and the divisor of its numbers; none for what the
+    /// spec does not have.
+    fn named(&self, spec: &Spec, of: Uncertain) -> Option<(String, f64)> {
+        // A relative deviation of a magnitude of zero is undefined.
+        let source =
+            |name: &str, size: f64| (size != 0.0).then(|| (format!("source = {}", quoted(name)), size));
+        let error = |component: Component| format!("error = \"{}\"", component.name());
+        match of {
+            Uncertain::Base(component) => Some((error(component), 1.0)),
+            Uncertain::Error(frame, component) => {
+                Some((format!("frame = {}, {}", quoted(&spec.frames[frame].name), error(component)), 1.0))
+            }
+            Uncertain::Held(of, size) => source(&spec.sources[of].name, size),
+            Uncertain::Fitted(row) => {
+                let own = self.magnitudes.iter().find(|found| found.row == row);
+                // A compliance matrix has no single magnitude.
+                let is_written = |found: &&FoundTerm| {
+                    found.row == row && self.is_expressible(spec, found) && !self.is_in_full_compliance(found)
+                };
+                match (own, self.terms.iter().find(is_written)) {
+                    (Some(own), _) => source(&spec.sources[own.source].name, own.magnitude),
+                    (_, Some(term)) => {
+                        source(&source_name(spec, &self.term_name(spec, term)), term.magnitude)
+                    }
+                    _ => None,
+                }
+            }
+        }
     }
 }

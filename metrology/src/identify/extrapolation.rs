@@ -39,7 +39,7 @@ impl TestExtrapolation {
             return None;
         }
         let standard_deviation =
-            written.and_then(|written| ToolPointDeviation::new(written.spec(), written, true, &outside));
+            written.and_then(|written| ToolPointDeviation::new(written.spec(), written, &outside));
         Some(Self { count: outside.len(), standard_deviation })
     }
 }

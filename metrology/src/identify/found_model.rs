@@ -9,12 +9,12 @@ use abbe_spec::{Fitted, Spec};
 
 use super::as_joint_errors::{AsJointErrors, JointError};
 use super::derived::Derived;
+use super::found_covariance::FoundCovariance;
 use super::found_placement::FoundPlacement;
 use super::instruments::InstrumentFit;
 use super::joint_profiles::JointProfile;
 use super::solve::Solved;
 use super::terms::{Basis, ErrorSite, Term};
-use super::undetermined::UndeterminedDirections;
 use crate::data::Data;
 use abbe_study::number::digits;
 use abbe_study::version;
@@ -36,17 +36,14 @@ pub struct FoundModel {
     pub magnitudes: Vec<FoundMagnitude>,
     /// Richer terms.
     pub terms: Vec<FoundTerm>,
-    /// Profiles of joints, with their rows of the covariance.
-    pub(super) profiles: Vec<(usize, JointProfile)>,
+    /// Profiles of joints.
+    pub(super) profiles: Vec<JointProfile>,
     /// Derived inputs; terms index them after those of the spec.
     pub derived: Vec<Derived>,
-    /// Covariance of the identified values, in the order of the kept unknowns; the `row` of a value
-    /// is its index in this matrix.
-    pub covariance: Vec<Vec<f64>>,
+    /// Covariance of the errors of the machine.
+    pub(super) covariance: FoundCovariance,
     /// Significant errors as numbers of the chain, with their alternatives.
     pub(super) joint_errors: Vec<JointError>,
-    /// Errors that the measurements could not determine.
-    pub(super) undetermined: UndeterminedDirections,
     /// Standard deviation along each axis of the position errors that the model does not explain,
     /// in the length unit; 0 if it explains all.
     pub unexplained: f64,
@@ -61,8 +58,6 @@ pub struct FoundModel {
 pub struct FoundError {
     /// Component of the generalized error.
     pub component: Component,
-    /// Row of the covariance.
-    pub row: usize,
     /// Value, in the length unit or rad.
     pub value: f64,
     /// Standard deviation, in the same unit.
@@ -72,7 +67,7 @@ pub struct FoundError {
 /// Term with its magnitude.
 #[derive(Clone, Copy, Debug)]
 pub struct FoundTerm {
-    /// Row of the covariance.
+    /// Index among the kept unknowns.
     pub row: usize,
     /// Term of magnitude 1.
     pub term: Term,
@@ -85,7 +80,7 @@ pub struct FoundTerm {
 /// Identified magnitude of a source of the spec.
 #[derive(Clone, Copy, Debug)]
 pub struct FoundMagnitude {
-    /// Row of the covariance.
+    /// Index among the kept unknowns.
     pub row: usize,
     /// Index among all sources of the spec.
     pub source: usize,
@@ -117,7 +112,7 @@ impl FoundModel {
         let mut found = Self { placed, frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
         let first = model.unknowns.len() - solved.terms.len();
         for (row, value, standard_deviation) in values {
-            let error = |component| FoundError { row, component, value, standard_deviation };
+            let error = |component| FoundError { component, value, standard_deviation };
             let k = kept[row];
             match model.unknowns[k] {
                 Unknown::Error(frame, component) => found.frames[frame].push(error(component)),
@@ -142,13 +137,7 @@ impl FoundModel {
             found.numbers.push(FoundTerm { row: one.index, term, magnitude, standard_deviation });
         }
         found.fitted = fitted(spec, data);
-        let count = kept.len();
-        let of_fit = || (0..count).map(|i| (0..count).map(|j| fit.covariance[(i, j)]).collect()).collect();
-        found.covariance = joint_errors.map_or_else(of_fit, |one| one.covariance.clone());
-        let profiles = solved.profiles.iter().flat_map(|profiles| profiles.joints.clone());
-        found.profiles = (count..).zip(profiles).collect();
-        let deviations: Vec<f64> = found.profiles.iter().map(|(_, one)| one.standard_deviation).collect();
-        append_independent(&mut found.covariance, &deviations);
+        found.profiles = solved.profiles.iter().flat_map(|profiles| profiles.joints.clone()).collect();
         let unit = spec.length.symbol();
         found.reference = format!(
             "Identified from {} rows{} of {} by abbe {}: rms {} {unit} on these rows, {} {unit} \
@@ -164,17 +153,6 @@ impl FoundModel {
             digits(left[1], 4),
         );
         found
-    }
-}
-
-/// Appends independent values with these standard deviations to a covariance matrix.
-fn append_independent(covariance: &mut Vec<Vec<f64>>, deviations: &[f64]) {
-    let size = covariance.len() + deviations.len();
-    covariance.iter_mut().for_each(|row| row.resize(size, 0.0));
-    for deviation in deviations {
-        let mut row = vec![0.0; size];
-        row[covariance.len()] = deviation * deviation;
-        covariance.push(row);
     }
 }
 

@@ -20,6 +20,7 @@ use super::derived::{Derived, derived, has_one_station, with_columns, with_input
 use super::drift::ResidualDrift;
 use super::extrapolation::TestExtrapolation;
 use super::families::{Family, Harmonics};
+use super::found_covariance::FoundCovariance;
 use super::found_model::FoundModel;
 use super::indistinguishable::indistinguishable;
 use super::instruments::{InstrumentFit, instrument_and_coordinate_fits, unequal_note};
@@ -37,7 +38,6 @@ use super::setup::Setup;
 use super::solve::Solved;
 use super::terms::Term;
 use super::train_test_overlap::{overlap_warning, train_test_overlap};
-use super::undetermined::UndeterminedDirections;
 use super::unexplained::unexplained;
 use super::unread::comparable;
 use super::weakly_determined::WeaklyDetermined;
@@ -223,9 +223,9 @@ fn found_model(
         derived: identified.derived.to_vec(),
         joint_errors: joint_errors.joint_errors(&explanations),
         is_placement: solved.is_placement(),
-        undetermined: match solved.is_placement() {
-            true => UndeterminedDirections::default(),
-            false => UndeterminedDirections::new(setup, solved, converted, rows)?,
+        covariance: match solved.is_placement() {
+            true => FoundCovariance::default(),
+            false => FoundCovariance::new(setup, solved, converted)?,
         },
         estimated,
         unexplained: unexplained(setup, solved, rows, left)?,

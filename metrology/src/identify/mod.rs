@@ -17,8 +17,8 @@
 //!
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
 //! targets, `fitted` their values. `spec_writer` writes its spec, `compliance_writer` full
-//! compliances, `covariance_writer` the covariance, `undetermined_writer` the errors that the data
-//! leave `undetermined`, `unexplained` the errors that the model does not have, and `map_writer`
+//! compliances, `covariance_writer` the
+//! `found_covariance`, `unexplained` the errors that the model does not have, and `map_writer`
 //! the map; `read_back` evaluates both. The `report` contains `counts`, `as_joint_errors` (errors
 //! as `chain_numbers`: zeros and lengths) and their `alternatives`, what is `indistinguishable` or
 //! `weakly_determined`, `parameters`, `drift`, `extrapolation`, the `scale`, the `gain` over other
@@ -43,6 +43,7 @@ mod extended;
 mod extrapolation;
 mod families;
 mod fitted;
+mod found_covariance;
 mod found_model;
 mod found_placement;
 mod gain;
@@ -76,8 +77,6 @@ mod solve;
 mod spec_writer;
 mod terms;
 mod train_test_overlap;
-mod undetermined;
-mod undetermined_writer;
 mod unexplained;
 mod unread;
 mod weakly_determined;

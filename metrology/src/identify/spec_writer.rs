@@ -56,13 +56,13 @@ impl FoundModel {
         let kept = Edits::apply(text, |root, edits| {
             edits.insert(0, &gravity);
             edits.insert(root.get("frame")?.span().start, &head);
-            edits.remove_tables(root, &["fitted", "covariance", "undetermined"]);
+            edits.remove_tables(root, &["fitted", "covariance"]);
             changed = set_magnitudes(root, edits, spec, &self.magnitudes);
             Some(())
         });
         let kept = kept.as_deref().unwrap_or(text).trim_end();
         let fitted = self.fitted_table(spec);
-        let covariance = self.covariance_table(spec) + &self.undetermined_table(spec);
+        let covariance = self.covariance_table(spec);
         let new = format!("{kept}\n{sources}\n{fitted}{covariance}{load}");
         let added = format!("{gravity}{changed}{head}{}\n{fitted}{load}", sources.trim_start());
         Spec::parse_in(Path::new(path).parent().unwrap_or(Path::new("")), path, &new)?;
@@ -90,7 +90,7 @@ impl FoundModel {
 
     /// Returns the table and the source of each profile of a joint.
     fn profile_sources(&self, spec: &Spec) -> impl Iterator<Item = String> {
-        self.profiles.iter().map(|(_, one)| {
+        self.profiles.iter().map(|one| {
             let (table, joint, description) = (table_name(spec, &one.joint), &one.joint, one.description());
             let keys = repeatable().text("joint", joint).text("error", &format!("{table}({joint})"));
             let source = self.source(spec, &one.source_name(), &description, keys);
@@ -203,10 +203,9 @@ impl FoundModel {
 pub(super) const DIGITS: usize = 7;
 
 /// Comments above the tables of an identification.
-pub(super) const ABOVE: [&str; 3] = [
+pub(super) const ABOVE: [&str; 2] = [
     "# The ranges of joints and inputs on which the errors were fitted.\n",
-    "# The covariance of the errors that were fitted.\n",
-    "# The errors that these measurements could not determine: they move other points of the tool.\n",
+    "# The covariance of what remains of the errors, relative to a base and a target that are set up anew.\n",
 ];
 
 /// Returns the name of the source with the constant errors of a frame, unless one of the spec has

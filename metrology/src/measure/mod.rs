@@ -23,7 +23,6 @@ use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_lar
 use crate::running_sums::RunningSums;
 use crate::{Acceptance, AcceptanceVerdict};
 use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
-use abbe_study::other_tool::{OtherTool, warn_of_other_tool};
 use abbe_study::{Machine, Notes, Residual, Residuals, RunRecord, finite, mistake};
 
 pub use errors::RowError;
@@ -74,9 +73,6 @@ pub struct Report {
     /// Rows outside the fitted ranges, and the predicted uncertainty there; none if there are no
     /// such rows.
     pub extrapolated: Option<Extrapolation>,
-    /// Uncertainty of the measured points if the errors of the spec were fitted at other points of
-    /// the tool; none if they were fitted at these.
-    pub other_tool: Option<OtherTool>,
     /// Number of independent configurations.
     pub configurations: usize,
     /// Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single
@@ -199,9 +195,7 @@ impl Measure {
         let rows = &evaluated.data.observations;
         let places = || rows.iter().map(|row| (&row.q[..], &row.u[..]));
         let (spec, points) = (&machine.spec, setup.delivered_points());
-        let other_tool = warn_of_other_tool(spec, &interpreter, &points, "rows", &mut places(), notes)?;
-        let is_measured = other_tool.is_none();
-        let extrapolated = warn_of_extrapolation(spec, &interpreter, is_measured, "rows", places(), notes);
+        let extrapolated = warn_of_extrapolation(spec, &interpreter, "rows", places(), notes);
         let Figures { rms, configurations, standard_error, .. } = evaluated.norms;
         if let Some(warning) = too_large(rms, fitted, &setup) {
             notes.warn(&warning);
@@ -230,7 +224,6 @@ impl Measure {
             residual_test,
             accepted,
             extrapolated,
-            other_tool,
             repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets_of(0).len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),

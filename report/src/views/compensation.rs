@@ -6,7 +6,7 @@ use abbe_metrology::data::Map;
 use abbe_spec::Spec;
 use abbe_study::number::{NO_BREAK, counted, error_decimals, error_unit, fixed, length, short, visible};
 
-use super::shared::{data_rows, extrapolated, first_rows, other_tool};
+use super::shared::{data_rows, extrapolated, first_rows};
 use crate::document::{Card, Column, Document, Section, Table, Verdict, number, words};
 use crate::figures::distances;
 
@@ -90,7 +90,6 @@ fn facts(machine: &Description, report: &Report) -> Vec<(&'static str, String)> 
         );
         facts.push(("Freedom", text));
     }
-    facts.extend(report.other_tool.iter().map(|tool| ("Tool", other_tool(tool, report.length))));
     facts.extend(report.extrapolated.iter().map(|rows| ("Outside", extrapolated(rows))));
     facts.extend(first_rows(std::slice::from_ref(&report.file)));
     facts
@@ -126,7 +125,6 @@ fn about(machine: &Description, report: &Report) -> Section {
             format!("Corrected: the remaining error of the tool point is at most {tolerance}{turn}."),
         )
         .state("cover", cover.to_owned())
-        .state("other_tool", report.other_tool.as_ref().map(|tool| tool.sentence.clone()))
         .state("extrapolated", report.extrapolated.as_ref().map(|rows| rows.sentence.clone()))
 }
 

@@ -7,7 +7,7 @@ use abbe_spec::option::IDENTIFY_OUT;
 use abbe_study::number::{counted, digits, error_unit, fixed, percent};
 
 use super::shared::{
-    accepted, data_rows, drift_clauses, extrapolated, first_rows, instrument, other_tool, residual_verdict,
+    accepted, data_rows, drift_clauses, extrapolated, first_rows, instrument, residual_verdict,
 };
 use crate::document::{Card, Document, Section, Table, number, words};
 use crate::figures::measured;
@@ -159,7 +159,6 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     }
     facts.extend(agreement(report));
     facts.extend(report.drift.iter().map(|order| ("Drift", drift_clauses(order, report.unit).concat())));
-    facts.extend(report.other_tool.iter().map(|tool| ("Tool", other_tool(tool, report.length))));
     facts.extend(report.extrapolated.iter().map(|rows| ("Outside", extrapolated(rows))));
     if report.base_fitted {
         facts.push(("Station", "fitted to these rows; errors that it absorbs are not included".to_owned()));
@@ -361,7 +360,6 @@ fn explained(report: &Report) -> Section {
     };
     section
         .state("explained", sentence)
-        .state("other_tool", report.other_tool.as_ref().map(|tool| tool.sentence.clone()))
         .state("extrapolated", report.extrapolated.as_ref().map(|rows| rows.sentence.clone()))
 }
 

@@ -6,9 +6,9 @@ use abbe_metrology::identify::ResidualDrift;
 use abbe_metrology::{AcceptanceVerdict, LimitCheck};
 use abbe_spec::Spec;
 use abbe_spec::option::NamedOption;
+use abbe_study::Extrapolation;
 use abbe_study::dead_point::DeadPoint;
 use abbe_study::number::{self, digits, error_unit, length, percent, quantity, short, unbroken};
-use abbe_study::{Extrapolation, OtherTool};
 
 use crate::document::{Section, Verdict, first, joined};
 
@@ -178,13 +178,6 @@ pub(super) fn instrument(spec: &Spec, map: &Map) -> Vec<(&'static str, String)> 
         ("Stands", base.to_owned()),
         ("Map", map.path().to_owned()),
     ]
-}
-
-/// Returns the uncertainty with a tool that is not the measured one.
-pub(super) fn other_tool(tool: &OtherTool, length: &str) -> String {
-    let (factor, unit) = error_unit(length);
-    let [all, noise] = [tool.standard_deviation, tool.by_noise].map(|value| digits(factor * value, 3));
-    format!("not the measured one: σ {all} {unit}, {noise} {unit} by noise; not all errors are determined")
 }
 
 /// Returns the number of rows outside the fitted ranges.

@@ -15,7 +15,6 @@ mod source;
 mod spec;
 mod tree;
 mod tunable;
-mod undetermined;
 
 pub use chain_number::{ChainNumber, DhConvention, DhNumber};
 pub use closure::{Closure, Loop};
@@ -30,4 +29,3 @@ pub use source::{Beam, Cause, Compliance, Deviation, DeviationCause, Effect, Mag
 pub use spec::Spec;
 pub use tree::Tree;
 pub use tunable::MAGNITUDE;
-pub use undetermined::Undetermined;

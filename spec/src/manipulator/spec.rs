@@ -15,7 +15,6 @@ use super::frame::{Factor, Frame};
 use super::load::Load;
 use super::source::{Deviation, Source, Uncertain};
 use super::tree::Tree;
-use super::undetermined::Undetermined;
 use crate::expr::{Expression, Symbol, Table};
 
 /// A manipulator as described by its file.
@@ -61,8 +60,6 @@ pub struct Spec {
     pub fitted: Vec<Fitted>,
     /// Covariance of these errors; empty if they were not identified.
     pub covariance: Covariance,
-    /// Errors that the measurements could not determine; empty if these determine everything.
-    pub undetermined: Undetermined,
     /// Functions defined by points.
     pub tables: Vec<Arc<Table>>,
     /// File name without its folder.

@@ -3,7 +3,6 @@
 use abbe_spec::option::{MONTE_CARLO, Q};
 use std::ops::Range;
 
-use abbe::Manipulator;
 use abbe::analysis::{
     Budget, BudgetSweep, Configuration, ErrorParts, Measurand, PartialBudget, Row, Statement, Subset,
     Sweepable, Unevaluated, Watch, Workspace, errors_at, monte_carlo,
@@ -26,7 +25,6 @@ use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::finite::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
-use crate::other_tool::{OtherTool, warn_of_other_tool};
 use crate::study_file::Study;
 use crate::workspace::Form;
 use crate::{RunRecord, mistake, number};
@@ -170,7 +168,6 @@ impl AnalysisSweep<'_> {
             compensation,
             monte_carlo,
             extrapolated: None,
-            other_tool: None,
             record: RunRecord::default().with_options(self.options.clone()),
             sources,
             spec: spec.clone(),
@@ -182,8 +179,8 @@ impl AnalysisSweep<'_> {
             sites,
         };
         self.warn_of_first_order(first_order, notes);
-        let (other_tool, extrapolated) = self.warn_of_calibration(notes)?;
-        let report = Report { other_tool, extrapolated, ..report };
+        let extrapolated = self.warn_of_calibration(notes);
+        let report = Report { extrapolated, ..report };
         finite(&machine.origin, report)
     }
 
@@ -291,26 +288,16 @@ impl AnalysisSweep<'_> {
         }
     }
 
-    /// Warns of a tool that was not measured, and of extrapolation, checked at some configurations
-    /// of a large workspace.
-    fn warn_of_calibration(
-        &self,
-        notes: &mut dyn Notes,
-    ) -> Result<(Option<OtherTool>, Option<Extrapolation>), Diagnostics> {
+    /// Warns of extrapolation, checked at some configurations of a large workspace.
+    fn warn_of_calibration(&self, notes: &mut dyn Notes) -> Option<Extrapolation> {
         let Self { machine, workspace, .. } = *self;
-        if machine.spec.fitted.is_empty() && machine.spec.undetermined.of.is_empty() {
-            return Ok((None, None));
+        if machine.spec.fitted.is_empty() {
+            return None;
         }
         let reached = Subset { workspace, count: EXTRAPOLATED }.reached();
-        let configurations = || reached.iter().map(|reached| (&reached.q[..], &reached.u[..]));
+        let configurations = reached.iter().map(|reached| (&reached.q[..], &reached.u[..]));
         let evaluator = machine.evaluator(true);
-        let (spec, manipulator): (_, &dyn Manipulator) = (&machine.spec, &*evaluator);
-        let what = "configurations";
-        let other = warn_of_other_tool(spec, manipulator, &[[0.0; 3]], what, &mut configurations(), notes)?;
-        let is_measured = other.is_none();
-        let extrapolated =
-            warn_of_extrapolation(spec, manipulator, is_measured, what, configurations(), notes);
-        Ok((other, extrapolated))
+        warn_of_extrapolation(&machine.spec, &*evaluator, "configurations", configurations, notes)
     }
 
     pub(super) fn not_evaluated(&self, refused: &Unevaluated) -> Diagnostics {

@@ -160,9 +160,7 @@ fn together(report: &Report) -> Section {
     let section = Section::full("All sources together").table(tables::combined(report));
     let section =
         conclusions(report).into_iter().fold(section, |section, text| section.state("conclusion", text));
-    section
-        .state("other_tool", report.other_tool.as_ref().map(|tool| tool.sentence.clone()))
-        .state("extrapolated", report.extrapolated.as_ref().map(|rows| rows.sentence.clone()))
+    section.state("extrapolated", report.extrapolated.as_ref().map(|rows| rows.sentence.clone()))
 }
 
 fn each_alone(report: &Report) -> Section {

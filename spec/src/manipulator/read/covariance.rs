@@ -4,24 +4,28 @@ use crate::option::IDENTIFY_OUT;
 use abbe_core::Component;
 
 use super::keys::{COVARIANCE, COVARIANCE_OF};
-use super::undetermined::numbers;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Item, Section};
-use crate::expr::{Dimension, Scope, Symbol};
-use crate::manipulator::{Cause, ChainNumber, Covariance, Identified, Source};
+use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
+use crate::manipulator::{Cause, ChainNumber, Covariance, Frame, Identified, Source};
 use crate::value::read_name;
 
 /// Reads the table; the covariance is empty without one.
-pub(super) fn read_covariance(root: &Section<'_>, sources: &[Source], scope: &Scope) -> Option<Covariance> {
+pub(super) fn read_covariance(
+    root: &Section<'_>,
+    frames: &[Frame],
+    sources: &[Source],
+    scope: &Scope,
+) -> Option<Covariance> {
     let Some(item) = root.get("covariance") else { return Some(Covariance::default()) };
     let section = item.table("[covariance]", &[&COVARIANCE])?;
     let (of, rows) = (section.required("of"), section.required("rows"));
     let (of, rows_item) = (of?, rows?);
     let mut all = Vec::new();
     for item in of.array("an array of tables `{ source = \"…\" }`")? {
-        all.push(identified(&item, sources, scope)?);
+        all.push(identified(&item, frames, sources, scope)?);
     }
-    let rows = numbers(&rows_item, Dimension::NONE, "a covariance", scope)?;
+    let rows = numbers(&rows_item, scope)?;
     let count = all.len();
     let square = rows.len() == count && rows.iter().all(|row| row.len() == count);
     let message = if !square {
@@ -37,15 +41,37 @@ pub(super) fn read_covariance(root: &Section<'_>, sources: &[Source], scope: &Sc
     rows_item.refuse(message, help)
 }
 
-fn identified(item: &Item<'_>, sources: &[Source], scope: &Scope) -> Option<Identified> {
+/// Reads rows of numbers.
+fn numbers(item: &Item<'_>, scope: &Scope) -> Option<Vec<Vec<f64>>> {
+    let mut rows = Vec::new();
+    for row in item.array("rows of numbers")? {
+        let mut numbers = Vec::new();
+        for number in row.array("numbers")? {
+            let entry =
+                Entry { dimension: Some(Dimension::NONE), what: "a covariance", names: Allowed::Nothing };
+            numbers.push(number.constant(scope, entry)?.0);
+        }
+        rows.push(numbers);
+    }
+    Some(rows)
+}
+
+fn identified(item: &Item<'_>, frames: &[Frame], sources: &[Source], scope: &Scope) -> Option<Identified> {
     let section = item.table("this entry of [covariance]", &[&COVARIANCE_OF])?;
-    let name = section.required("source")?;
+    let component =
+        |error: &Item<'_>| error.choice(&Component::ALL.map(|component| (component.name(), component)));
+    let Some(name) = section.get("source") else {
+        let component = component(&section.required("error")?)?;
+        let Some(frame) = section.get("frame") else { return Some(Identified::Base(component)) };
+        let frame = read_name(&frame, frames.iter().map(|frame| frame.name.as_str()), "frame")?;
+        return Some(Identified::Error(frame, component));
+    };
     let source = read_name(&name, sources.iter().map(|source| source.name.as_str()), "source")?;
     if let Some(joint) = section.get("joint") {
         return of_joint(&section, &joint, &sources[source], scope);
     }
     let Some(error) = section.get("error") else { return Some(Identified::Magnitude(source)) };
-    let component = error.choice(&Component::ALL.map(|component| (component.name(), component)))?;
+    let component = component(&error)?;
     let has = |cause: &Cause| match cause {
         Cause::Errors(errors) => errors.iter().any(|(own, _)| *own == component),
         _ => false,

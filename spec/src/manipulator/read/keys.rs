@@ -36,7 +36,6 @@ crate::tables! {
         "fitted": Names("table of `NAME = [LOWER, UPPER]`", &List("two numbers", Some(2), &NUMBER)), "-", "none",
             "Ranges of joints and inputs in which `identify` fitted the errors; `measure`, `compensate` and `analyze` warn beyond them";
         "covariance": Table("[covariance]"), "-", "not known", "Covariance of the errors that `identify` fitted";
-        "undetermined": Table("[undetermined]"), "-", "none", "Errors that the measurements of `identify` could not determine";
     ]
     MANIPULATOR: ["[manipulator]"], [
         "name": Text("name in lower case"), "-", "required", "Name of the module and the type in generated code";
@@ -232,20 +231,10 @@ crate::tables! {
         "rows": ROWS, "length unit, rad, and 1", "required", "Covariance matrix of these errors; symmetric";
     ]
     COVARIANCE_OF: ["[covariance.of]"], [
-        "source": Text("name of a source"), "-", "required", "Source; without `error`, the factor of the whole source, nominally 1";
-        "error": Choice(|| Component::ALL.map(Component::name).to_vec()), "-", "all of the source", "Error of a frame that the source has";
+        "source": Text("name of a source"), "-", "none", "Source; without `error`, the factor of the whole source, nominally 1";
+        "error": Choice(|| Component::ALL.map(Component::name).to_vec()), "-", "required without `source`", "Error of a frame; with a source, the one that it has";
+        "frame": Text("name of a frame"), "-", "`F_0`", "Frame that has the error, without a source";
         "joint": Text("name of a joint variable"), "-", "none", "Joint of which the source has an error; its covariance is that of an addend of this error";
-    ]
-    UNDETERMINED: ["[undetermined]"], [
-        "points": List("rows of three numbers", None, &List("three numbers", Some(3), &NUMBER)), "length unit", "required",
-            "Measured points in the last frame, nominal and as they were found; the directions have no effect there";
-        "of": Tables("[undetermined.of]"), "-", "required", "Errors of the columns";
-        "rows": ROWS, "length unit, rad, and 1", "required", "Independent directions of these errors, each of one standard deviation";
-    ]
-    UNDETERMINED_OF: ["[undetermined.of]"], [
-        "frame": Text("name of a frame"), "-", "`F_0`", "Frame that has the error";
-        "error": Choice(|| Component::ALL.map(Component::name).to_vec()), "-", "required without `source`", "Error of the frame";
-        "source": Text("name of a source"), "-", "none", "Source, for the factor of all its errors";
     ]
     LOAD: ["[[load]]"], [
         "name": Text("text"), "-", "none", "Name of the load, for people";

@@ -3,7 +3,7 @@
 //! `spec` reads the file from top to bottom: `declarations` the names, `tables` (with `points`) the
 //! functions defined by points, `frames` the transforms, `loops` what closes (both with frames that
 //! are `named`), `sources`, `effects`, `elastic`, `deviations` and `loads` the physical errors,
-//! `fitted`, `covariance` and `undetermined` the results of identification.
+//! `fitted` and `covariance` the results of identification.
 //!
 //! `freedoms` checks that the loops determine the passive variables, `in_loops` that sources have
 //! an effect that is known there. `positive` checks the signs of masses and stiffnesses, and
@@ -31,4 +31,3 @@ mod sources;
 mod spec;
 mod sum_limits;
 mod tables;
-mod undetermined;

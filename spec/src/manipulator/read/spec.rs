@@ -22,7 +22,6 @@ use super::rigid::check_rigid;
 use super::samples::depends;
 use super::sources::{input_uncertainties, parts_of_balls, read_sources};
 use super::sum_limits::read_sum_limits;
-use super::undetermined::read_undetermined;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::Symbol;
@@ -143,8 +142,7 @@ fn read(root: &Section<'_>) -> Option<Spec> {
     check_loaded(root, tree, &sources, &loads, &declarations.variables, gravity.is_some());
     check_signs(&sources, &loads, &declarations, root.document);
     let fitted = read_fitted(root, &declarations);
-    let covariance = read_covariance(root, &sources, &declarations.scope);
-    let undetermined = read_undetermined(root, &frames, &sources, &declarations.scope);
+    let covariance = read_covariance(root, &frames, &sources, &declarations.scope);
     let parts = parts_of_balls(&mut sources);
     sources.extend(parts);
     sources.extend(input_uncertainties(&declarations, &sources, root.document));
@@ -180,7 +178,6 @@ fn read(root: &Section<'_>) -> Option<Spec> {
         gravity,
         fitted,
         covariance: covariance?,
-        undetermined: undetermined?,
         tables: scope.tables,
         file,
         beside,

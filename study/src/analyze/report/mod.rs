@@ -48,7 +48,7 @@ use super::loop_condition::LoopCondition;
 use super::unreachable::UnreachableReason;
 use crate::bound::CertifiedNorms;
 use crate::study_file::{CombinedFigure, Criterion, PublishedResidual, Study, Subject};
-use crate::{Extrapolation, OtherTool, RunRecord, number};
+use crate::{Extrapolation, RunRecord, number};
 
 /// Errors of the sources over a workspace. Lengths are in the spec's unit, along the axes of `F_0`;
 /// angles are in rad.
@@ -121,10 +121,6 @@ pub struct Report {
     /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub extrapolated: Option<Extrapolation>,
-    /// Uncertainty of the tool point if it is no point at which the errors of the spec were fitted;
-    /// `None` if it is one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub other_tool: Option<OtherTool>,
     /// Stated date, and the version of abbe; absent if there is no date.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,

@@ -1,0 +1,226 @@
+//! Covariance of the errors of the identified machine, relative to base and target.
+//!
+//! A fit determines combinations of the unknowns θ: the kept unknowns take the values `x = R θ`,
+//! where R adds to each kept unknown those held at zero that act as it in these data. Numbers of
+//! the chain replace some kept unknowns by `v = F x`; the columns of W are the errors of the
+//! written values. The written machine differs from the real one by
+//!
+//! ```text
+//! W F x̂ − θ = W F (x̂ − R θ) + (W F R − 1) θ
+//! ```
+//!
+//! The first term is the noise, with the covariance C of the fit. The second has no effect on these
+//! data; with the priors σ of θ it has the parts `(W F R − 1) diag(σ)`.
+//!
+//! What no configuration shows once base and target are set up anew is no error of the machine.
+//! With the effects G of the errors on a frame at the flange, at configurations within the joint
+//! limits, and those B of the errors of `F_0` and of the last frame that are set up anew, the parts
+//! D lose `B⁺ G D`; with `(G D)ᵀ G D = V Λ Vᵀ`, the columns `D V` of a positive Λ are left.
+
+use abbe::analysis::decompose::symmetric_eigen;
+use abbe::analysis::{Workspace, joint_samples};
+use abbe::identify::{Failure, Measurement, Model, Observation, Unknown};
+use abbe::{Component, Error, Pose, Quantity};
+use nalgebra::{Cholesky, DMatrix, DVector, RowDVector, SymmetricEigen};
+
+use super::as_joint_errors::AsJointErrors;
+use super::priors::Prior;
+use super::setup::Setup;
+use super::solve::Solved;
+
+/// Number of configurations at which effects are evaluated.
+const SAMPLES: usize = 100;
+
+/// Smallest effect of a part, as a share of the largest effect of one unknown.
+const NO_EFFECT: f64 = 1e-6;
+
+/// Smallest entry of a part, as a share of the largest effect of an entry in it.
+const ROUNDING: f64 = 1e-9;
+
+/// Covariance of errors of the machine, as independent parts.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FoundCovariance {
+    /// Quantities of the rows.
+    pub(super) of: Vec<Uncertain>,
+    /// Standard deviations of each part, in columns.
+    parts: Vec<Vec<f64>>,
+}
+
+/// Quantity of a row.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Uncertain {
+    /// An error of `F_0`.
+    Base(Component),
+    /// An error of a frame, numbered from 0.
+    Error(usize, Component),
+    /// A magnitude that was fitted, by its index among the kept unknowns.
+    Fitted(usize),
+    /// A magnitude that was held at its declared value: index of the source, and that value.
+    Held(usize, f64),
+}
+
+impl FoundCovariance {
+    pub(super) fn new(
+        setup: &Setup,
+        solved: &Solved,
+        joint_errors: Option<&AsJointErrors>,
+    ) -> Result<Self, Failure> {
+        let model = &solved.model;
+        let base = Component::ALL.map(|component| Unknown::Base(0, component));
+        let of_machine = |unknown: &Unknown| matches!(unknown, Unknown::Error(..) | Unknown::Magnitude(_));
+        let rows: Vec<Unknown> =
+            base.into_iter().chain(model.unknowns.iter().copied().filter(of_machine)).collect();
+        let of_unknowns = parts(solved, joint_errors)?;
+        let mut parts = DMatrix::zeros(rows.len(), of_unknowns.ncols());
+        for (i, row) in rows.iter().enumerate().skip(base.len()) {
+            let k = model.unknowns.iter().position(|unknown| unknown == row).unwrap_or_default();
+            parts.set_row(i, &of_unknowns.row(k));
+        }
+        let effects = effects(setup, model, &rows)?;
+        let last = setup.description.frames.len() - 1;
+        // Instruments at unknown places are set up anew with the base.
+        let stands = |unknown: &Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Fixture(..));
+        let is_base_anew = model.unknowns.iter().any(stands);
+        let is_anew = |unknown: Unknown| match unknown {
+            Unknown::Base(..) => is_base_anew,
+            Unknown::Error(frame, _) => frame == last && !setup.placement,
+            _ => false,
+        };
+        let anew: Vec<usize> = (0..rows.len()).filter(|i| is_anew(rows[*i])).collect();
+        without_setups(&effects, &anew, &mut parts);
+        let parts = with_effect(&effects, &parts)?;
+        // Entries without an effect are rounding errors.
+        let size = |k: usize| effects.column(k).norm();
+        let largest =
+            |part: usize| (0..rows.len()).map(|k| (parts[(k, part)] * size(k)).abs()).fold(0.0, f64::max);
+        let least: Vec<f64> = (0..parts.ncols()).map(|i| ROUNDING * largest(i)).collect();
+        let occurs = |k: &usize| (0..least.len()).any(|i| (parts[(*k, i)] * size(*k)).abs() > least[i]);
+        let used = (0..rows.len()).filter(occurs);
+        let row = |k: usize| Some((Uncertain::new(solved, rows[k])?, parts.row(k).iter().copied().collect()));
+        let (of, parts) = used.filter_map(row).unzip();
+        Ok(Self { of, parts })
+    }
+
+    /// Returns the covariance of two rows.
+    pub(super) fn between(&self, i: usize, j: usize) -> f64 {
+        self.parts[i].iter().zip(&self.parts[j]).map(|(a, b)| a * b).sum()
+    }
+}
+
+impl Uncertain {
+    /// Returns none for a term that was not fitted.
+    fn new(solved: &Solved, unknown: Unknown) -> Option<Self> {
+        match unknown {
+            Unknown::Base(_, component) => Some(Self::Base(component)),
+            Unknown::Error(frame, component) => Some(Self::Error(frame, component)),
+            _ => {
+                let k = solved.model.unknowns.iter().position(|one| *one == unknown)?;
+                let kept = solved.fit.identifiable.kept.iter().position(|one| *one == k).map(Self::Fitted);
+                kept.or_else(|| solved.own_magnitude(k).map(|own| Self::Held(own.source, own.declared.value)))
+            }
+        }
+    }
+}
+
+/// Returns `W F C^½` and `(W F R − 1) diag(σ)` side by side: a row for each unknown.
+fn parts(solved: &Solved, joint_errors: Option<&AsJointErrors>) -> Result<DMatrix<f64>, Failure> {
+    let (model, fit) = (&solved.model, &solved.fit);
+    let (p, kept) = (model.unknowns.len(), &fit.identifiable.kept);
+    let default = model.priors(Prior::DEFAULT_SHARE)?;
+    let priors = (0..p).map(|k| fit.priors.get(k).copied().flatten().or(default[k]));
+    let sizes = model.expected(&priors.collect::<Vec<_>>())?;
+    let mut w = DMatrix::zeros(p, kept.len());
+    kept.iter().enumerate().for_each(|(i, k)| w[(*k, i)] = 1.0);
+    let mut forms = DMatrix::identity(kept.len(), kept.len());
+    if let Some(joint_errors) = joint_errors {
+        forms = DMatrix::from_fn(kept.len(), kept.len(), |i, j| joint_errors.forms[i][j]);
+        for number in &joint_errors.numbers {
+            w.column_mut(number.index).fill(0.0);
+            let (frame, errors) = number.twist;
+            for (component, error) in Component::ALL.into_iter().zip(errors) {
+                let unknown = Unknown::Error(frame, component);
+                if let Some(k) = model.unknowns.iter().position(|one| *one == unknown) {
+                    w[(k, number.index)] = error;
+                }
+            }
+        }
+    }
+    let written = w * forms;
+    let root = match Cholesky::new(fit.covariance.clone()) {
+        Some(cholesky) => cholesky.l(),
+        None => symmetric_eigen(fit.covariance.clone()).map_or_else(
+            || DMatrix::zeros(kept.len(), 0),
+            |SymmetricEigen { eigenvalues, eigenvectors }| {
+                eigenvectors * DMatrix::from_diagonal(&eigenvalues.map(|value| value.max(0.0).sqrt()))
+            },
+        ),
+    };
+    // Places on the bench, and where the machine stands on it, are no errors of the machine.
+    let is_of_bench =
+        |unknown: Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Fixture(..) | Unknown::Zero(_));
+    let uncertain = (0..p).filter(|k| !is_of_bench(model.unknowns[*k]));
+    let uncertain: Vec<(usize, f64)> = uncertain.filter_map(|k| Some((k, sizes[k]?))).collect();
+    let mut parts = DMatrix::zeros(p, root.ncols() + uncertain.len());
+    parts.columns_mut(0, root.ncols()).copy_from(&(&written * &root));
+    for (i, (k, size)) in uncertain.iter().enumerate() {
+        let mut direction = &written * DVector::from_vec(fit.identifiable.kept_coordinates(*k));
+        direction[*k] -= 1.0;
+        parts.set_column(root.ncols() + i, &(direction * *size));
+    }
+    Ok(parts)
+}
+
+/// Subtracts from each part the motions of what is set up anew, in the rows `anew`, that are
+/// nearest to its effect.
+fn without_setups(effects: &DMatrix<f64>, anew: &[usize], parts: &mut DMatrix<f64>) {
+    let mut motions = effects.select_columns(anew);
+    let lengths: Vec<f64> =
+        motions.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
+    motions.column_iter_mut().zip(&lengths).for_each(|(mut column, length)| column /= *length);
+    let Ok(nearest) = motions.svd(true, true).solve(&(effects * &*parts), 1e-9) else { return };
+    for ((i, k), length) in anew.iter().enumerate().zip(&lengths) {
+        let change = nearest.row(i) / *length;
+        parts.row_mut(*k).zip_apply(&change, |value, change| *value -= change);
+    }
+}
+
+/// Computes G, the displacements of three points of the tool by each unknown at configurations
+/// within the joint limits. The points are as far from each other as the arm is long.
+fn effects(setup: &Setup, model: &Model, rows: &[Unknown]) -> Result<DMatrix<f64>, Failure> {
+    let all: Vec<usize> = (0..setup.description.variables.len()).collect();
+    let samples = joint_samples(model.manipulator, &all, SAMPLES).map_err(Failure::Machine)?;
+    let nothing = || Measurement::Points(Vec::new().into());
+    let samples = samples.reached().into_iter();
+    let samples: Vec<Observation> =
+        samples.map(|sample| Observation::new(0, sample.q, sample.u, nothing())).collect();
+    let bare = Model { targets: Vec::new(), ..model.with(rows.to_vec()) };
+    let [x, y, z, _] = Pose::IDENTITY.0;
+    let mut moved: Vec<RowDVector<f64>> = Vec::new();
+    for point in [[0.0; 3], [setup.arm, 0.0, 0.0], [0.0, setup.arm, 0.0]] {
+        let shifted = Model { mountings: vec![Pose([x, y, z, point]); bare.mountings.len()], ..bare.clone() };
+        for sample in &samples {
+            // Expressions and tables need not be defined at every sample.
+            let Ok(points) = shifted.tool_points(std::slice::from_ref(sample)) else { continue };
+            let moves = points.derivatives().iter().flat_map(|moves| moves.row_iter());
+            moved.extend(moves.map(|row| row.clone_owned()).filter(|row| row.iter().all(|v| v.is_finite())));
+        }
+    }
+    Ok(match moved.is_empty() {
+        true => DMatrix::zeros(0, rows.len()),
+        false => DMatrix::from_rows(&moved),
+    })
+}
+
+/// Returns the combinations `U V` of the parts that have an effect, in columns.
+fn with_effect(effects: &DMatrix<f64>, parts: &DMatrix<f64>) -> Result<DMatrix<f64>, Failure> {
+    let moved = effects * parts;
+    let single = |k: usize| effects.column(k).norm() * parts.row(k).amax();
+    let largest = (0..effects.ncols()).map(single).fold(0.0, f64::max);
+    let eigen = symmetric_eigen(moved.tr_mul(&moved));
+    let not_finite = Failure::Machine(Error::NotFinite { quantity: Quantity::Jacobian, index: 0 });
+    let SymmetricEigen { eigenvalues, eigenvectors } = eigen.ok_or(not_finite)?;
+    let has_effect = |i: &usize| eigenvalues[*i].max(0.0).sqrt() > NO_EFFECT * largest;
+    let mut order: Vec<usize> = (0..eigenvalues.len()).filter(has_effect).collect();
+    order.sort_by(|a, b| eigenvalues[*b].total_cmp(&eigenvalues[*a]));
+    Ok(parts * eigenvectors.select_columns(&order))
+}
