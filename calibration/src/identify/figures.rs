@@ -96,6 +96,13 @@ impl Distances {
         Mean::clustered(self.values.iter().copied(), &self.configurations)
     }
 
+    /// Replaces the number of each configuration.
+    #[must_use]
+    pub(super) fn renumbered(mut self, number: impl Fn(u32) -> u32) -> Self {
+        self.configurations.iter_mut().for_each(|one| *one = number(*one));
+        self
+    }
+
     /// Compares these distances with others at the same points, pair by pair.
     pub fn compared_with(&self, others: &Self) -> Comparison {
         let differences = self.values.iter().zip(&others.values).map(|(own, other)| other - own);

@@ -1,5 +1,7 @@
 //! K-fold cross-validation: position errors of data that were not used in the fit.
 
+use std::collections::HashMap;
+
 use nalgebra::DVector;
 
 use super::fit::REJECTED;
@@ -37,6 +39,64 @@ impl Folds {
     }
 }
 
+impl Folds {
+    /// Divides the configurations into `count` regions of joint space with about equally many each:
+    /// the part with the most configurations is halved at the median of the joint that varies most,
+    /// in shares of its variation over all rows, until there are enough.
+    pub fn by_region(data: &[Observation], count: usize) -> Self {
+        let Configurations { count: configurations, number } = Configurations::new(data);
+        let mut places: Vec<&[f64]> = vec![&[]; configurations];
+        number.iter().zip(data).for_each(|(number, row)| places[*number as usize] = &row.q);
+        let range = |part: &[usize], joint: usize| {
+            let values = part.iter().map(|i| places[*i][joint]);
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+        };
+        let whole: Vec<usize> = (0..configurations).collect();
+        let joints = places.first().map_or(0, |place| place.len());
+        let spread = |part: &[usize], joint| {
+            let (least, most) = range(part, joint);
+            most - least
+        };
+        let all: Vec<f64> = (0..joints).map(|joint| spread(&whole, joint).max(f64::MIN_POSITIVE)).collect();
+        let mut parts = vec![whole];
+        while parts.len() < count {
+            let largest = (0..parts.len()).max_by_key(|i| (parts[*i].len(), usize::MAX - i)).unwrap_or(0);
+            let mut part = parts.swap_remove(largest);
+            if part.len() < 2 {
+                parts.push(part);
+                break;
+            }
+            let share = |joint: &usize| spread(&part, *joint) / all[*joint];
+            let joint = (0..joints).max_by(|a, b| share(a).total_cmp(&share(b)).then(b.cmp(a)));
+            let key = |i: usize| joint.map_or(0.0, |joint| places[i][joint]);
+            part.sort_by(|a, b| key(*a).total_cmp(&key(*b)).then(a.cmp(b)));
+            let rest = part.split_off(part.len() / 2);
+            parts.extend([part, rest]);
+        }
+        let mut fold = vec![0; configurations];
+        for (i, part) in parts.iter().enumerate() {
+            part.iter().for_each(|configuration| fold[*configuration] = i as u32);
+        }
+        Self { count: parts.len(), fold: number.into_iter().map(|number| fold[number as usize]).collect() }
+    }
+
+    /// Returns distances of rows of these folds with the folds as the independent samples, in place
+    /// of configurations.
+    pub fn of(&self, data: &[Observation], distances: Distances) -> Distances {
+        let rows = data.iter().zip(&self.fold).map(|(row, fold)| (row.configuration, *fold));
+        let fold: HashMap<u32, u32> = rows.collect();
+        distances.renumbered(|one| fold.get(&one).copied().unwrap_or(one))
+    }
+
+    /// Divides the configurations into `count` runs, in the order in which they first occur.
+    pub fn by_order(data: &[Observation], count: usize) -> Self {
+        let Configurations { count: configurations, number } = Configurations::new(data);
+        let count = count.clamp(1, configurations.max(1));
+        let fold = |number: u32| (number as usize * count / configurations.max(1)) as u32;
+        Self { count, fold: number.into_iter().map(fold).collect() }
+    }
+}
+
 /// Computes the triangle of each fold at `x`.
 fn triangles(
     model: &Model,
@@ -69,14 +129,13 @@ pub fn cross_validate(
     model: &Model,
     data: &[Observation],
     fit: &Fit,
-    count: usize,
+    folds: &Folds,
 ) -> Result<Distances, Failure> {
-    let folds = Folds::new(data, count);
     let kept = model.with(fit.identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
     let x: Vec<f64> = fit.identifiable.kept.iter().map(|k| fit.x[*k]).collect();
     let priors: Vec<Option<f64>> =
         fit.identifiable.kept.iter().map(|k| fit.priors.get(*k).copied().flatten()).collect();
-    let parts = triangles(&kept, data, &x, &fit.weights, &folds)?;
+    let parts = triangles(&kept, data, &x, &fit.weights, folds)?;
     let solve = |left_out: usize| {
         let step = others(&kept, &parts, left_out, &priors, &x)
             .solve(0.0)

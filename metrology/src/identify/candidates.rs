@@ -1,5 +1,6 @@
 //! Candidate terms and the order in which they are tried.
 
+use abbe::identify::Observation;
 use abbe::{Component, VariableKind};
 use abbe_codegen::chain::frame_twists;
 use abbe_codegen::graph::Graph;
@@ -7,7 +8,7 @@ use abbe_spec::{ChainNumber, Factor, Spec};
 
 use super::derived::{Derived, DerivedKind};
 use super::families::{Family, Harmonics};
-use super::terms::{Angle, Basis, ErrorSite, Term, Wave};
+use super::terms::{Angle, Basis, ErrorSite, HeldJoint, Term, Wave, held_ranges};
 
 /// Groups of terms by stage, the likelier ones first. A group is accepted or rejected as a whole,
 /// such as the sine and cosine of a joint. Each stage is tried beside the terms accepted in earlier
@@ -15,13 +16,16 @@ use super::terms::{Angle, Basis, ErrorSite, Term, Wave};
 pub type Stages = Vec<Vec<Vec<Term>>>;
 
 /// Returns the candidate terms of several families together, then those of each family alone that
-/// has any; only the former for a single family.
+/// has any; only the former for a single family. Functions of joints are held outside of what the
+/// rows cover.
 pub(super) fn competing(
     spec: &Spec,
     derived: &[Derived],
     families: &[Family],
     harmonics: &[Harmonics],
+    rows: &[Observation],
 ) -> Vec<Stages> {
+    let ranges = held_ranges(spec, rows);
     let together = candidates(spec, derived, families, harmonics);
     let alone = |family: &Family| {
         let harmonics = if *family == Family::Joint { harmonics } else { &[] };
@@ -29,7 +33,13 @@ pub(super) fn competing(
     };
     let alone: Vec<Stages> = families.iter().map(alone).filter(|stages| !stages.is_empty()).collect();
     let alone = if alone.len() > 1 { alone } else { Vec::new() };
-    [together].into_iter().filter(|stages| !stages.is_empty()).chain(alone).collect()
+    let mut all: Vec<Stages> =
+        [together].into_iter().filter(|stages| !stages.is_empty()).chain(alone).collect();
+    let terms = all.iter_mut().flatten().flatten().flatten();
+    terms.for_each(|term| *term = term.within(&ranges));
+    let is_told = |group: &Vec<Term>| group.iter().all(|term| !term.is_hidden());
+    all.iter_mut().flatten().for_each(|stage| stage.retain(is_told));
+    all
 }
 
 /// Returns the candidate terms of these families. `spec` must have the derived inputs after its
@@ -117,7 +127,9 @@ fn joint(spec: &Spec, times: &[u16], exponents: &[u8]) -> Vec<Vec<Term>> {
                 times.iter().map(|times| Basis::waves(Angle::times(variable, *times))).collect()
             }
             VariableKind::Prismatic => {
-                let power = |exponent: &u8| vec![Basis::Wave(Wave::Power { variable, exponent: *exponent })];
+                let power = |exponent: &u8| {
+                    vec![Basis::Wave(Wave::Power { joint: HeldJoint::free(variable), exponent: *exponent })]
+                };
                 exponents.iter().map(power).collect()
             }
         };
@@ -175,12 +187,17 @@ fn product(spec: &Spec) -> Vec<Vec<Term>> {
     let is_revolute = |joint: usize| spec.variables[joint].kind == VariableKind::Revolute;
     let alone = |joint: usize| match is_revolute(joint) {
         true => [1, 2].map(|times| Basis::waves(Angle::times(joint, times))).to_vec(),
-        false => [1, 2].map(|exponent| vec![Basis::Wave(Wave::Power { variable: joint, exponent })]).to_vec(),
+        false => [1, 2]
+            .map(|exponent| vec![Basis::Wave(Wave::Power { joint: HeldJoint::free(joint), exponent })])
+            .to_vec(),
     };
-    let travel = |joint: usize| Wave::Power { variable: joint, exponent: 1 };
+    let travel = |joint: usize| Wave::Power { joint: HeldJoint::free(joint), exponent: 1 };
     let both = |one: usize, other: usize| match (is_revolute(one), is_revolute(other)) {
         (true, true) => {
-            let with = |plus| Basis::waves(Angle { variable: one, times: 1, other: Some((other, plus)) });
+            let with = |plus| {
+                let joint = HeldJoint::free(one);
+                Basis::waves(Angle { joint, times: 1, other: Some((HeldJoint::free(other), plus)) })
+            };
             vec![with(true), with(false)]
         }
         (false, false) => vec![vec![Basis::Product(travel(one), travel(other))]],

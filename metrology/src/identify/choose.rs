@@ -2,9 +2,7 @@
 
 use std::time::Instant;
 
-use abbe::identify::{
-    CandidateTerms, Comparison, Folds, Model, ModelTerm, Observation, Selection, Unknown, select,
-};
+use abbe::identify::{CandidateTerms, Folds, Model, ModelTerm, Observation, Selection, Unknown, select};
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -52,7 +50,7 @@ pub(super) fn choose(
     if solved.is_placement() {
         return Ok(Chosen::default());
     }
-    let constant = Assessed::new(&solved, data);
+    let constant = Assessed::new(&solved, data)?;
     let groups = sets.iter().flatten().map(Vec::len).sum();
     let model = offered.model(&solved, setup.declared + own.len());
     let begin = Instant::now();
@@ -81,9 +79,11 @@ pub(super) fn choose(
     let alone = selected.flatten().min_by(|(_, a), (_, b)| a.mean().total_cmp(&b.mean()));
     let best = match (together, alone) {
         (Some(together), Some(alone)) => {
-            // By chance, one of several sets is better.
-            let is_worse = |one: Comparison| one.gain <= 0.0 || one.p * sets.len() as f64 > CHANCE;
-            if together.1.compared_with(&alone.1).is_some_and(is_worse) { alone.0 } else { together.0 }
+            if together.1.is_better_than(&alone.1) {
+                together.0
+            } else {
+                alone.0
+            }
         }
         (together, alone) => together.or(alone).map(|(chosen, _)| chosen).unwrap_or_default(),
     };
@@ -230,10 +230,10 @@ impl Chosen {
             if self.groups.len() < count {
                 continue;
             }
-            let assessed = Assessed::new(&solved, input.data);
-            match assessed.compared_with(constant) {
-                Some(Comparison { gain, .. }) if gain < 0.0 => drop(self.groups.pop()),
-                _ => return Ok(Some((self, assessed))),
+            let assessed = Assessed::new(&solved, input.data)?;
+            match assessed.is_better_than(constant) {
+                true => return Ok(Some((self, assessed))),
+                false => drop(self.groups.pop()),
             }
         }
         Ok(None)

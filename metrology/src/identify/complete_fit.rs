@@ -1,6 +1,6 @@
 //! Complete fit: constant errors together with selected terms.
 
-use abbe::identify::{Comparison, Distances, Failure};
+use abbe::identify::{Comparison, Distances, Failure, Folds, cross_validate};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
@@ -13,7 +13,7 @@ use super::magnitude::own_magnitudes;
 use super::options::Settings;
 use super::plausibility::check_plausibility;
 use super::setup::Setup;
-use super::solve::{Solved, solve};
+use super::solve::{Solved, diagnose, solve};
 use super::terms::Term;
 use crate::data::{Data, Map};
 use abbe_study::{Notes, mistake};
@@ -74,31 +74,50 @@ impl FitInput<'_> {
     }
 }
 
+/// Number of regions of joint space, and of runs of rows, by which models are compared.
+const BLOCKS: usize = 8;
+
 /// Accuracy of a complete fit on rows that it leaves out.
 #[derive(Clone, Debug)]
 pub(super) struct Assessed {
     /// Position errors of the cross-validation.
     pub(super) cross_validated: Distances,
+    /// Position errors of regions of joint space, and of runs of rows, each left out as a whole;
+    /// the blocks are the independent samples.
+    by_block: [Distances; 2],
     /// Lines of the rows rejected as outliers.
     pub(super) rejected: Vec<u64>,
 }
 
 impl Assessed {
-    pub(super) fn new(solved: &Solved, data: &Data) -> Self {
-        Self {
-            cross_validated: solved.cross_validated.clone(),
-            rejected: solved.fit.rejected(&data.observations).map(|row| row.line).collect(),
-        }
+    pub(super) fn new(solved: &Solved, data: &Data) -> Result<Self, Diagnostics> {
+        let Solved { model, fit, cross_validated, .. } = solved;
+        let rows = &data.observations;
+        let by_block = |folds: Folds| {
+            let distances =
+                cross_validate(model, rows, fit, &folds).map_err(|failure| diagnose(&failure, data))?;
+            Ok(folds.of(rows, distances))
+        };
+        Ok(Self {
+            cross_validated: cross_validated.clone(),
+            by_block: [by_block(Folds::by_region(rows, BLOCKS))?, by_block(Folds::by_order(rows, BLOCKS))?],
+            rejected: fit.rejected(rows).map(|row| row.line).collect(),
+        })
     }
 
-    /// Returns the mean cross-validation error.
+    /// Returns the mean error of the blocks.
     pub(super) fn mean(&self) -> f64 {
-        self.cross_validated.figures().mean
+        self.by_block.each_ref().map(|one| one.figures().mean).iter().sum::<f64>() / 2.0
     }
 
-    /// Compares the cross-validation errors with those of another fit; none if the fits reject
-    /// different rows.
-    pub(super) fn compared_with(&self, other: &Self) -> Option<Comparison> {
-        (self.rejected == other.rejected).then(|| self.cross_validated.compared_with(&other.cross_validated))
+    /// Returns whether this model predicts blocks better than a simpler one by more than the
+    /// standard error of the difference, in regions and in runs; true if the fits reject different
+    /// rows.
+    pub(super) fn is_better_than(&self, simpler: &Self) -> bool {
+        let is_better = |(own, other): (&Distances, &Distances)| {
+            let Comparison { gain, standard_error, .. } = own.compared_with(other);
+            gain > standard_error
+        };
+        self.rejected != simpler.rejected || self.by_block.iter().zip(&simpler.by_block).all(is_better)
     }
 }

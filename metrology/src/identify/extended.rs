@@ -8,7 +8,7 @@ use abbe_spec::{
 };
 
 use super::magnitude::own_magnitudes;
-use super::terms::{Angle, Basis, ErrorSite, Term, Wave};
+use super::terms::{Angle, Basis, ErrorSite, HeldJoint, Term, Wave};
 
 /// Returns the spec with additional sources after its own: first a copy of magnitude 1 of every
 /// source whose magnitude is unknown, then all terms as repeatable sources of magnitude 1.
@@ -126,8 +126,8 @@ impl Wave {
         match self {
             Self::Sine(angle) => angle.expression().call(Function::Sin),
             Self::Cosine(angle) => angle.expression().call(Function::Cos),
-            Self::Power { variable, exponent } => {
-                let travel = Expression::from_symbol(Symbol::Variable(variable), Dimension::LENGTH);
+            Self::Power { joint, exponent } => {
+                let travel = joint.expression(Dimension::LENGTH);
                 (travel / Expression::from_number(1000.0, Dimension::LENGTH)).power(f64::from(exponent))
             }
         }
@@ -136,16 +136,27 @@ impl Wave {
 
 impl Angle {
     fn expression(self) -> Expression {
-        let joint = |variable| Expression::from_symbol(Symbol::Variable(variable), Dimension::NONE);
+        let joint = |joint: HeldJoint| joint.expression(Dimension::NONE);
         let number = |value: f64| Expression::from_number(value, Dimension::NONE);
         let one = match self.times {
-            1 => joint(self.variable),
-            times => number(f64::from(times)) * joint(self.variable),
+            1 => joint(self.joint),
+            times => number(f64::from(times)) * joint(self.joint),
         };
         match self.other {
             Some((other, true)) => one + joint(other),
             Some((other, false)) => one + number(-1.0) * joint(other),
             None => one,
+        }
+    }
+}
+
+impl HeldJoint {
+    fn expression(self, dimension: Dimension) -> Expression {
+        let joint = Expression::from_symbol(Symbol::Variable(self.variable), dimension);
+        let number = |end| Expression::from_number(end, dimension);
+        match self.range {
+            Some([least, most]) => joint.or_larger(number(least)).or_smaller(number(most)),
+            None => joint,
         }
     }
 }

@@ -128,7 +128,7 @@ impl Identify {
         };
         let data = completed(data, true)?;
 
-        let sets = competing(&spec, &derived, &self.terms, &self.harmonics);
+        let sets = competing(&spec, &derived, &self.terms, &self.harmonics, &data.observations);
         let input = FitInput { spec: &spec, map, data: &data, settings };
         let chosen = if sets.is_empty() { Chosen::default() } else { choose(&input, &sets, notes)? };
         let terms = [leg_terms(&spec), chosen.terms()].concat();

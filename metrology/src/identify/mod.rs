@@ -107,7 +107,7 @@ pub use report::{
     Report, TermGain,
 };
 pub use spec_writer::IdentifiedSpec;
-pub use terms::{Angle, Basis, ErrorSite, Term, Wave};
+pub use terms::{Angle, Basis, ErrorSite, HeldJoint, Term, Wave};
 pub use train_test_overlap::overlap_warning;
 pub use weakly_determined::WeaklyDetermined;
 

@@ -2,7 +2,7 @@
 
 use abbe::Manipulator;
 use abbe::analysis::variance;
-use abbe::identify::{Failure, Fit, Model, Observation, Unknown, cross_validate};
+use abbe::identify::{Failure, Fit, Folds, Model, Observation, Unknown, cross_validate};
 
 /// Expected size of errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +76,7 @@ impl Prior {
         }
         let mut best: Option<(f64, f64)> = None;
         for share in SHARES {
-            let validated = |fit| cross_validate(model, rows, &fit, folds);
+            let validated = |fit| cross_validate(model, rows, &fit, &Folds::new(rows, folds));
             let Ok(found) = fitted(model, Self::Share(share)).and_then(validated) else { continue };
             let rms = found.figures().rms;
             if best.is_none_or(|(_, least)| rms < least * (1.0 - BETTER)) {

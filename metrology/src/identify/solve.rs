@@ -1,7 +1,7 @@
 //! Fit and cross-validation on the data alone.
 
 use abbe::VariableKind;
-use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cross_validate, fit};
+use abbe::identify::{Distances, Failure, Fit, Folds, Loss, Model, Options, Unknown, cross_validate, fit};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Motion;
@@ -79,13 +79,13 @@ pub(super) fn solve<'a>(
             let share = if term.basis == Basis::One { share } else { share.min(1e-3) };
             *prior = Some(share * term.scale(setup));
         }
-        let at = embedded(&simple, &simple_x, model);
         let expected = model.expected(&priors)?;
+        let at = embedded(&simple, &simple_x, model);
         fit(model, rows, &Options { at, priors, expected, ..options.clone() })
     };
     let validated = |prior: Prior| {
         let fit = fitted(&model, prior)?;
-        let cross_validated = cross_validate(&model, rows, &fit, settings.folds)?;
+        let cross_validated = cross_validate(&model, rows, &fit, &Folds::new(rows, settings.folds))?;
         Ok((fit, cross_validated))
     };
     let mut prior = settings.prior.resolve(&model, rows, settings.folds, fitted).map_err(diagnose)?;

@@ -1,6 +1,8 @@
 //! Terms of richer models: error functions with an unknown magnitude each.
 
+use abbe::identify::Observation;
 use abbe::{Component, VariableKind};
+use abbe_spec::edit::write::number;
 use abbe_spec::expr::{Dimension, Motion};
 use abbe_spec::{ChainNumber, DhNumber, Spec};
 
@@ -55,51 +57,109 @@ pub enum Wave {
     Sine(Angle),
     /// Cosine of an angle.
     Cosine(Angle),
-    /// Power of a joint's travel, in 1000 length units.
+    /// Power of the travel of a prismatic joint, in 1000 length units.
     Power {
-        /// Index of the prismatic joint.
-        variable: usize,
+        /// Travel.
+        joint: HeldJoint,
         /// Exponent.
         exponent: u8,
     },
 }
 
+/// Joint variable, held at the ends of a range outside of it: what rows say of a function within
+/// the range that they cover says nothing of it beyond.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldJoint {
+    /// Index of the variable.
+    pub variable: usize,
+    /// Range, in rad or the length unit; none if the function continues everywhere.
+    pub range: Option<[f64; 2]>,
+}
+
+impl HeldJoint {
+    /// Returns a joint that is held nowhere.
+    pub fn free(variable: usize) -> Self {
+        Self { variable, range: None }
+    }
+
+    fn within(self, ranges: &[Option<[f64; 2]>]) -> Self {
+        Self { range: ranges.get(self.variable).copied().flatten(), ..self }
+    }
+
+    fn value(self, q: &[f64]) -> f64 {
+        let value = q[self.variable];
+        self.range.map_or(value, |[least, most]| value.clamp(least, most))
+    }
+
+    fn text(self, spec: &Spec) -> String {
+        let name = &spec.variables[self.variable].name;
+        let Some(ends) = self.range else { return name.clone() };
+        let unit = spec.variables[self.variable].kind.either("", spec.length.symbol());
+        let [least, most] = ends.map(|end| format!("{end} {unit}").trim_end().to_owned());
+        format!("min(max({name}, {least}), {most})")
+    }
+}
+
+/// Smallest share of a turn, or of the limits, that rows cover where functions of a joint continue
+/// beyond these rows.
+const COVERED: f64 = 0.9;
+
+/// Smallest range of a joint, in rad, over which waves of frames are told from constant errors.
+const TOLD: f64 = core::f64::consts::FRAC_PI_4;
+
+/// Returns the range of each joint outside of which functions of it are held: that of the rows,
+/// unless they cover nearly all of its turn or of its limits.
+pub(super) fn held_ranges(spec: &Spec, rows: &[Observation]) -> Vec<Option<[f64; 2]>> {
+    let of_joint = |(i, variable): (usize, &abbe_spec::Variable)| {
+        let (least, most) = rows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), row| {
+            (least.min(row.q[i]), most.max(row.q[i]))
+        });
+        let limits = variable.limits[1] - variable.limits[0];
+        let whole = variable.kind.either(limits.min(core::f64::consts::TAU), limits);
+        let round = |end: f64| number(end, 4).parse().unwrap_or(end);
+        (most - least < COVERED * whole).then(|| [round(least), round(most)])
+    };
+    spec.variables.iter().enumerate().map(of_joint).collect()
+}
+
 /// Multiple of a joint angle, or its sum or difference with another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Angle {
-    /// Index of the revolute joint.
-    pub variable: usize,
+    /// Revolute joint.
+    pub joint: HeldJoint,
     /// Number of periods per turn.
     pub times: u16,
     /// Another revolute joint, added (`true`) or subtracted (`false`).
-    pub other: Option<(usize, bool)>,
+    pub other: Option<(HeldJoint, bool)>,
 }
 
 impl Angle {
     /// Returns a multiple of one joint angle.
     pub fn times(variable: usize, times: u16) -> Self {
-        Self { variable, times, other: None }
+        Self { joint: HeldJoint::free(variable), times, other: None }
+    }
+
+    fn within(self, ranges: &[Option<[f64; 2]>]) -> Self {
+        let other = self.other.map(|(other, plus)| (other.within(ranges), plus));
+        Self { joint: self.joint.within(ranges), other, ..self }
     }
 
     fn value(self, q: &[f64]) -> f64 {
-        let one = f64::from(self.times) * q[self.variable];
+        let one = f64::from(self.times) * self.joint.value(q);
         match self.other {
-            Some((other, true)) => one + q[other],
-            Some((other, false)) => one - q[other],
+            Some((other, true)) => one + other.value(q),
+            Some((other, false)) => one - other.value(q),
             None => one,
         }
     }
 
     /// Formats the angle as an expression of a spec.
     fn text(self, spec: &Spec) -> String {
-        let name = |variable: usize| spec.variables[variable].name.as_str();
-        let one = match self.times {
-            1 => name(self.variable).to_owned(),
-            times => format!("{times}*{}", name(self.variable)),
-        };
+        let joint = self.joint.text(spec);
+        let one = if self.times == 1 { joint } else { format!("{}*{joint}", self.times) };
         match self.other {
-            Some((other, true)) => format!("{one} + {}", name(other)),
-            Some((other, false)) => format!("{one} - {}", name(other)),
+            Some((other, true)) => format!("{one} + {}", other.text(spec)),
+            Some((other, false)) => format!("{one} - {}", other.text(spec)),
             None => one,
         }
     }
@@ -111,7 +171,7 @@ impl Wave {
         match self {
             Self::Sine(angle) => angle.value(q).sin(),
             Self::Cosine(angle) => angle.value(q).cos(),
-            Self::Power { variable, exponent } => (q[variable] / 1000.0).powi(i32::from(exponent)),
+            Self::Power { joint, exponent } => (joint.value(q) / 1000.0).powi(i32::from(exponent)),
         }
     }
 
@@ -119,16 +179,23 @@ impl Wave {
         match self {
             Self::Sine(angle) => format!("sin({})", angle.text(spec)),
             Self::Cosine(angle) => format!("cos({})", angle.text(spec)),
-            Self::Power { variable, exponent } => {
-                let (name, unit) = (&spec.variables[variable].name, spec.length.symbol());
-                format!("({name}/(1000 {unit}))^{exponent}")
+            Self::Power { joint, exponent } => {
+                format!("({}/(1000 {}))^{exponent}", joint.text(spec), spec.length.symbol())
             }
+        }
+    }
+
+    fn within(self, ranges: &[Option<[f64; 2]>]) -> Self {
+        match self {
+            Self::Sine(angle) => Self::Sine(angle.within(ranges)),
+            Self::Cosine(angle) => Self::Cosine(angle.within(ranges)),
+            Self::Power { joint, exponent } => Self::Power { joint: joint.within(ranges), exponent },
         }
     }
 
     /// Describes the function for the name of a group of terms.
     fn kind(self, spec: &Spec) -> String {
-        let name = |variable: usize| &spec.variables[variable].name;
+        let name = |joint: HeldJoint| &spec.variables[joint.variable].name;
         match self {
             Self::Sine(angle) | Self::Cosine(angle) if angle.other.is_none() => {
                 let often = match angle.times {
@@ -136,12 +203,14 @@ impl Wave {
                     2 => "twice".to_owned(),
                     times => format!("{times} times"),
                 };
-                format!("{often} per turn of {}", name(angle.variable))
+                format!("{often} per turn of {}", name(angle.joint))
             }
-            Self::Sine(angle) | Self::Cosine(angle) => format!("once per turn of {}", angle.text(spec)),
-            Self::Power { variable, exponent: 1 } => format!("in proportion to {}", name(variable)),
-            Self::Power { variable, exponent: 2 } => format!("with the square of {}", name(variable)),
-            Self::Power { variable, .. } => format!("with the cube of {}", name(variable)),
+            Self::Sine(angle) | Self::Cosine(angle) => {
+                format!("once per turn of {}", angle.within(&[]).text(spec))
+            }
+            Self::Power { joint, exponent: 1 } => format!("in proportion to {}", name(joint)),
+            Self::Power { joint, exponent: 2 } => format!("with the square of {}", name(joint)),
+            Self::Power { joint, .. } => format!("with the cube of {}", name(joint)),
         }
     }
 }
@@ -159,6 +228,15 @@ impl Basis {
             Self::Wave(wave) => wave.value(q),
             Self::Product(one, other) => one.value(q) * other.value(q),
             Self::Input(input) => u[input],
+        }
+    }
+
+    /// Returns the function with its joints held outside of these ranges.
+    fn within(self, ranges: &[Option<[f64; 2]>]) -> Self {
+        match self {
+            Self::Wave(wave) => Self::Wave(wave.within(ranges)),
+            Self::Product(one, other) => Self::Product(one.within(ranges), other.within(ranges)),
+            Self::One | Self::Input(_) | Self::Moment | Self::Coupled(_) => self,
         }
     }
 
@@ -184,6 +262,22 @@ impl Basis {
 }
 
 impl Term {
+    /// Returns the term with its joints held outside of these ranges.
+    pub(super) fn within(self, ranges: &[Option<[f64; 2]>]) -> Self {
+        Self { basis: self.basis.within(ranges), ..self }
+    }
+
+    /// Returns whether rows within the ranges can hardly tell it from constant errors: a wave of a
+    /// frame over a small part of a turn.
+    pub(super) fn is_hidden(self) -> bool {
+        let (ErrorSite::Frame(..), Basis::Wave(Wave::Sine(angle) | Wave::Cosine(angle))) =
+            (self.site, self.basis)
+        else {
+            return false;
+        };
+        angle.joint.range.is_some_and(|[least, most]| most - least < TOLD)
+    }
+
     /// Returns the constant term that the basis multiplies. A compliance is its own carrier.
     pub(super) fn carrier(self) -> Self {
         if self.basis.is_elastic() { self } else { Self { basis: Basis::One, ..self } }
@@ -203,10 +297,12 @@ impl Term {
                 format!("{owner}: elastic deflection, {error} coupled with {}", other.name())
             }
             Basis::Input(input) => format!("{owner}: {error} with {}", spec.inputs[input].name),
-            Basis::Wave(Wave::Power { variable, exponent }) => {
-                format!("{owner}: {error} with {}^{exponent}", spec.variables[variable].name)
+            Basis::Wave(Wave::Power { joint, exponent }) => {
+                format!("{owner}: {error} with {}^{exponent}", spec.variables[joint.variable].name)
             }
-            Basis::Wave(_) | Basis::Product(..) => format!("{owner}: {error} with {}", self.basis.text(spec)),
+            Basis::Wave(_) | Basis::Product(..) => {
+                format!("{owner}: {error} with {}", self.basis.within(&[]).text(spec))
+            }
         }
     }
 

@@ -9,6 +9,7 @@ mod instruments;
 mod interpretations;
 mod measurements;
 mod monitor;
+mod parts_of_turns;
 mod placements;
 mod plausibility;
 mod profiles;

@@ -20,12 +20,12 @@ use crate::thorough::thorough;
 const NOISE: f64 = 0.05;
 
 /// Constant errors of the simulated machines.
-const CONSTANTS: &str = "[[source]]\nname = \"bent\"\nclass = \"repeatable\"\nframe = \"elbow\"\ne_s = \"0.8 mrad\"\n\
+pub(crate) const CONSTANTS: &str = "[[source]]\nname = \"bent\"\nclass = \"repeatable\"\nframe = \"elbow\"\ne_s = \"0.8 mrad\"\n\
                          e_x = \"0.3 mm\"\n\n[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"q2\"\n\
                          error = \"1 mrad\"\n\n";
 
 /// Returns a UR5 whose joints turn once, with these sources.
-fn ur5(sources: &str) -> String {
+pub(crate) fn ur5(sources: &str) -> String {
     let machine = Machine::find("ur5").unwrap();
     let text = machine.text().unwrap();
     let nominal = &text[..text.find("[[source]]").expect("it has sources")];
@@ -33,7 +33,7 @@ fn ur5(sources: &str) -> String {
 }
 
 /// Draws two to five waves of 1 to 48 cycles per turn and 0.05 to 0.3 mrad for each joint.
-fn drawn_waves(seed: u64) -> String {
+pub(crate) fn drawn_waves(seed: u64) -> String {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let joint = |joint: usize| {
         let waves: Vec<String> = (0..random.random_range(2..=5))
@@ -52,12 +52,12 @@ fn drawn_waves(seed: u64) -> String {
     (1..=6).map(joint).collect()
 }
 
-fn machine(text: &str) -> Machine {
+pub(crate) fn machine(text: &str) -> Machine {
     Machine::of_spec(Spec::parse("ur5.toml", text).unwrap(), "ur5.toml")
 }
 
 /// Returns the map of a tracker whose placement, like that of its target, is known.
-fn map(machine: &Machine) -> Map {
+pub(crate) fn map(machine: &Machine) -> Map {
     let joints: String =
         (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
     let text = format!(

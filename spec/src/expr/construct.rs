@@ -45,6 +45,22 @@ impl Expression {
         self.combined(Binary::Pow, Self::from_number(exponent, Dimension::NONE), dimension, value)
     }
 
+    /// Returns the larger of this and an expression of the same dimension.
+    pub fn or_larger(self, other: Self) -> Self {
+        self.chosen(Binary::Max, other)
+    }
+
+    /// Returns the smaller of this and an expression of the same dimension.
+    pub fn or_smaller(self, other: Self) -> Self {
+        self.chosen(Binary::Min, other)
+    }
+
+    fn chosen(self, binary: Binary, other: Self) -> Self {
+        let dimension = self.whole().dimension;
+        let value = self.constant().zip(other.constant()).map(|(l, r)| binary.evaluate(l, r));
+        self.combined(binary, other, dimension, value)
+    }
+
     fn combined(self, binary: Binary, right: Self, dimension: Option<Dimension>, value: Option<f64>) -> Self {
         let left = self.terms().len();
         let place = left + right.terms().len();

@@ -1,7 +1,7 @@
 //! Identification from 100,000 rows: by least squares, with a robust loss, and with
 //! cross-validation.
 
-use abbe::identify::{Chance, Loss, Options, cross_validate, fit, simulate};
+use abbe::identify::{Chance, Folds, Loss, Options, cross_validate, fit, simulate};
 use criterion::{Criterion, Throughput};
 
 use crate::measurements::{ROWS, asked, ideal};
@@ -21,7 +21,7 @@ pub(crate) fn bench(criterion: &mut Criterion) {
         let options = Options { loss, ..Options::default() };
         on_one_and_two(&mut group, name, || {
             let found = fit(&model, &data, &options).expect("a fit");
-            cross_validate(&model, &data, &found, 10).expect("its figures")
+            cross_validate(&model, &data, &found, &Folds::new(&data, 10)).expect("its figures")
         });
     }
     group.finish();

@@ -3,7 +3,8 @@
 
 use abbe::Manipulator;
 use abbe::identify::{
-    Figures, Measurement, Model, Observation, Options, Uncertainty, Unknown, cross_validate, fit, groups,
+    Figures, Folds, Measurement, Model, Observation, Options, Uncertainty, Unknown, cross_validate, fit,
+    groups,
 };
 use abbe_manipulators::{ur5, wam};
 use abbe_tests::needs::{Missing, Tests, measured_data};
@@ -89,7 +90,7 @@ fn identified(robot: &dyn Manipulator, [grid, random]: [&str; 2]) -> Result<Iden
         ..Options::default()
     };
     let all = fit(&model, &grid, &options).unwrap();
-    let crossed = cross_validate(&model, &grid, &all, 10).unwrap().figures();
+    let crossed = cross_validate(&model, &grid, &all, &Folds::new(&grid, 10)).unwrap().figures();
     let fitted = figures(&model, &grid, &all.x);
     assert!(fitted.mean < crossed.mean, "{fitted:?} {crossed:?}: rows left out are not seen");
     let moved: Vec<usize> = (0..robot.description().variables.len()).collect();

@@ -133,7 +133,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let found = fit(&richer, &data, &Options { loss, ..Options::default() }).unwrap();
-            let crossed = cross_validate(&richer, &data, &found, 10).unwrap();
+            let crossed = cross_validate(&richer, &data, &found, &Folds::new(&data, 10)).unwrap();
             (richer.figures(&data, &found.x).unwrap(), found, crossed)
         })
     };
