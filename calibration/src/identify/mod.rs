@@ -64,6 +64,7 @@
 //! ```
 
 mod acceleration;
+mod between_blocks;
 mod between_stations;
 mod blocks;
 mod board_pose;
@@ -112,6 +113,7 @@ mod views;
 #[cfg(test)]
 mod tests;
 
+pub use between_blocks::{BetweenBlocks, between_blocks};
 pub use between_stations::{BetweenStations, between_stations};
 pub use board_pose::BoardView;
 pub use candidate_terms::{CandidateTerms, ModelTerm};

@@ -171,8 +171,8 @@ impl Compensate {
         let manipulator = machine.with_held_tables().evaluator(true);
         let data = self.data.completed(map, &*manipulator, &machine.spec);
         let configurations = || data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
-        let (spec, tool_point) = (&machine.spec, [[0.0; 3]]);
-        let extrapolated = warn_of_extrapolation(spec, &*manipulator, "rows", configurations(), notes);
+        let extrapolated =
+            warn_of_extrapolation(&machine.spec, &*manipulator, "rows", configurations(), notes);
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
         let base_frame = BaseFramePoses::new(map, &data);
         let (mut row_summary, mut norms) = (RowSummary::default(), [[RunningSums::default(); 2]; 2]);

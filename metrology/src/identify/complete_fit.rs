@@ -75,7 +75,7 @@ impl FitInput<'_> {
 }
 
 /// Number of regions of joint space, and of runs of rows, by which models are compared.
-const BLOCKS: usize = 8;
+pub(super) const BLOCKS: usize = 8;
 
 /// Accuracy of a complete fit on rows that it leaves out.
 #[derive(Clone, Debug)]

@@ -10,6 +10,7 @@ use abbe_spec::option::TEST;
 
 use super::alternatives::{Explanations, target_on_axis};
 use super::as_joint_errors::AsJointErrors;
+use super::between_blocks::include_between_blocks;
 use super::between_stations::include_between_stations;
 use super::candidates::competing;
 use super::choose::{Chosen, choose};
@@ -152,6 +153,7 @@ impl Identify {
         };
         check_lengths(&setup, &solved.model, &solved.fit, settings.prior, &data, notes)?;
         include_between_stations(&mut solved, &setup, &data)?;
+        include_between_blocks(&mut solved, &data)?;
         solved.notes.extend(data.note_on_time().map(|note| format!("note: {note}")));
         let cross_validated = std::mem::take(&mut solved.cross_validated);
         let cross_validation = CrossValidation::new(cross_validated, &solved, &chosen, &data, settings);

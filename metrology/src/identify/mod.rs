@@ -9,7 +9,8 @@
 //!
 //! `solve` fits and cross-validates with `priors`, `outliers` warns of gross errors, and
 //! `magnitude` are sources of the spec fitted with the constants. `between_stations` includes the
-//! differences of the machine between stations. `terms` are errors of richer models, `families` and
+//! differences of the machine between stations, `between_blocks` those between regions and runs of
+//! rows. `terms` are errors of richer models, `families` and
 //! `candidates` those that are tried, and `derived` the inputs computed from the row order.
 //! `choose` selects the terms that help, `complete_fit` fits constants with them, `extended` adds
 //! them to the spec. `profiles` adds errors of joints by many cycles per turn, each as a
@@ -27,6 +28,7 @@
 
 mod alternatives;
 mod as_joint_errors;
+mod between_blocks;
 mod between_stations;
 mod board_check;
 mod candidates;

@@ -8,7 +8,7 @@ use abbe_spec::Spec;
 use abbe_spec::option::NamedOption;
 use abbe_study::Extrapolation;
 use abbe_study::dead_point::DeadPoint;
-use abbe_study::number::{self, digits, error_unit, length, percent, quantity, short, unbroken};
+use abbe_study::number::{self, digits, length, percent, quantity, short, unbroken};
 
 use crate::document::{Section, Verdict, first, joined};
 

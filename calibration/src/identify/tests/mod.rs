@@ -1,6 +1,7 @@
 //! Tests: derivatives against finite differences, ranks against theory, statistics and designs
 //! against Monte Carlo.
 
+mod blocks;
 mod coverage;
 mod derivatives;
 mod designs;
