@@ -228,8 +228,6 @@ class AnalyzeReport(Report):
     extrapolated: Extrapolation | None
     """Configurations outside the fitted ranges, and the uncertainty there; None if there are none."""
 
-    other_tool: OtherTool | None
-    """Uncertainty of the tool point if it is no point at which the errors of the spec were fitted; None if it is one."""
 
     record: Named[str] | None
     """Stated date, and the version of abbe; absent if there is no date."""
@@ -2159,10 +2157,6 @@ class MeasureReport(Report):
     extrapolated: Extrapolation | None
     """Rows outside the fitted ranges, and the predicted uncertainty there; none if there are no such rows."""
 
-    other_tool: OtherTool | None
-    """Uncertainty of the measured points if the errors of the spec were fitted at other points of the tool; none if
-    they were fitted at these.
-    """
 
     configurations: int
     """Number of independent configurations."""
@@ -2481,37 +2475,6 @@ class OrientationSource(Fields):
 
     worst: Named[float]
     """Configuration with the largest norm."""
-
-
-class OtherTool(Fields):
-    """Points of a tool other than those at which the errors of a spec were fitted. Standard deviations are √trace of
-    the covariance of a point, root mean square over configurations and points, in the length unit.
-    """
-
-    points: list[list[float]]
-    """Points of this tool in the last frame, in the length unit."""
-
-    fitted_points: list[list[float]]
-    """Points in the last frame at which the errors were fitted, in the length unit: nominal, and as they were found."""
-
-    by_noise: float
-    """Standard deviation by the noise of the fitted measurements alone.
-
-    Unit: length unit.
-    """
-
-    standard_deviation: float
-    """Standard deviation with the errors that these measurements could not determine.
-
-    Unit: length unit.
-    """
-
-    with_measured_place: float
-    """Standard deviation that remains if the place of the tool on the last frame is measured, apart from the noise of
-    that measurement.
-
-    Unit: length unit.
-    """
 
 
 class Pair(Fields):

@@ -168,16 +168,4 @@ fn stated_uncertainty_agrees_with_the_scatter_outside_the_ranges() {
     );
     let mut quiet = RecordedNotes::default();
     assert!(measure(&near, &mut quiet).is_none() && quiet.0.is_empty(), "{:?}", quiet.0);
-    // `compensate` corrects the tool point, which is not the measured target: errors that the
-    // target does not show are added, within the ranges and outside.
-    let job =
-        Compensate { machine: machines[0].clone(), map: map(), data: far, poses: false, tolerance: 1e-3 };
-    let report = job.run(&mut ()).unwrap();
-    let (again, other) =
-        (report.extrapolated.unwrap().standard_deviation.unwrap(), report.other_tool.unwrap());
-    assert!(
-        again.extrapolated > known.extrapolated && again.within > 2.0 * known.within,
-        "{again:?} {known:?}"
-    );
-    assert!((other.by_noise / known.extrapolated - 1.0).abs() < 1e-9, "{other:?} {known:?}");
 }
