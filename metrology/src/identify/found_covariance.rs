@@ -13,9 +13,10 @@
 //! data; with the priors σ of θ it has the parts `(W F R − 1) diag(σ)`.
 //!
 //! What no configuration shows once base and target are set up anew is no error of the machine.
-//! With the effects G of the errors on a frame at the flange, at configurations within the joint
-//! limits, and those B of the errors of `F_0` and of the last frame that are set up anew, the parts
-//! D lose `B⁺ G D`; with `(G D)ᵀ G D = V Λ Vᵀ`, the columns `D V` of a positive Λ are left.
+//! With the effects G of the errors on the measured points in the fitted rows, and those B of the
+//! errors of `F_0` and of the last frame that are set up anew, the parts D lose `B⁺ G D`: base and
+//! target are where these rows place them. With the effects H on a frame at the flange within the
+//! joint limits and `(H D)ᵀ H D = V Λ Vᵀ`, the columns `D V` of a positive Λ are left.
 
 use abbe::analysis::decompose::symmetric_eigen;
 use abbe::analysis::{Workspace, joint_samples};
@@ -24,6 +25,7 @@ use abbe::{Component, Error, Pose, Quantity};
 use nalgebra::{Cholesky, DMatrix, DVector, RowDVector, SymmetricEigen};
 
 use super::as_joint_errors::AsJointErrors;
+use super::fitted::{fitted_mountings, fitted_targets};
 use super::priors::Prior;
 use super::setup::Setup;
 use super::solve::Solved;
@@ -64,6 +66,7 @@ impl FoundCovariance {
         setup: &Setup,
         solved: &Solved,
         joint_errors: Option<&AsJointErrors>,
+        data: &[Observation],
     ) -> Result<Self, Failure> {
         let model = &solved.model;
         let base = Component::ALL.map(|component| Unknown::Base(0, component));
@@ -76,7 +79,22 @@ impl FoundCovariance {
             let k = model.unknowns.iter().position(|unknown| unknown == row).unwrap_or_default();
             parts.set_row(i, &of_unknowns.row(k));
         }
-        let effects = effects(setup, model, &rows)?;
+        let spread = |[x, y, z]: [f64; 3]| [[x, y, z], [x + setup.arm, y, z], [x, y + setup.arm, z]];
+        let measured = match setup.pose {
+            true => fitted_mountings(model, &solved.fit.x)
+                .iter()
+                .flat_map(|pose| spread(pose.position()))
+                .collect(),
+            false => model.mounted(&fitted_targets(model, &solved.fit.x)),
+        };
+        let step = data.len().div_ceil(SAMPLES).max(1);
+        let fitted: Vec<Observation> = data.iter().step_by(step).cloned().collect();
+        let all: Vec<usize> = (0..setup.description.variables.len()).collect();
+        let samples = joint_samples(model.manipulator, &all, SAMPLES).map_err(Failure::Machine)?.reached();
+        let nothing = || Measurement::Points(Vec::new().into());
+        let samples = samples.into_iter().map(|sample| Observation::new(0, sample.q, sample.u, nothing()));
+        let samples: Vec<Observation> = samples.collect();
+        let effects = |points: &[[f64; 3]], at: &[Observation]| effects(model, &rows, points, at);
         let last = setup.description.frames.len() - 1;
         // Instruments at unknown places are set up anew with the base.
         let stands = |unknown: &Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Fixture(..));
@@ -87,7 +105,8 @@ impl FoundCovariance {
             _ => false,
         };
         let anew: Vec<usize> = (0..rows.len()).filter(|i| is_anew(rows[*i])).collect();
-        without_setups(&effects, &anew, &mut parts);
+        without_setups(&effects(&measured, &fitted), &anew, &mut parts);
+        let effects = effects(&spread([0.0; 3]), &samples);
         let parts = with_effect(&effects, &parts)?;
         // Entries without an effect are rounding errors.
         let size = |k: usize| effects.column(k).norm();
@@ -184,31 +203,26 @@ fn without_setups(effects: &DMatrix<f64>, anew: &[usize], parts: &mut DMatrix<f6
     }
 }
 
-/// Computes G, the displacements of three points of the tool by each unknown at configurations
-/// within the joint limits. The points are as far from each other as the arm is long.
-fn effects(setup: &Setup, model: &Model, rows: &[Unknown]) -> Result<DMatrix<f64>, Failure> {
-    let all: Vec<usize> = (0..setup.description.variables.len()).collect();
-    let samples = joint_samples(model.manipulator, &all, SAMPLES).map_err(Failure::Machine)?;
-    let nothing = || Measurement::Points(Vec::new().into());
-    let samples = samples.reached().into_iter();
-    let samples: Vec<Observation> =
-        samples.map(|sample| Observation::new(0, sample.q, sample.u, nothing())).collect();
-    let bare = Model { targets: Vec::new(), ..model.with(rows.to_vec()) };
+/// Computes the displacements of points, given in the frame of the tool, by each unknown at some
+/// configurations.
+fn effects(model: &Model, unknowns: &[Unknown], points: &[[f64; 3]], rows: &[Observation]) -> DMatrix<f64> {
+    let bare = Model { targets: Vec::new(), ..model.with(unknowns.to_vec()) };
     let [x, y, z, _] = Pose::IDENTITY.0;
     let mut moved: Vec<RowDVector<f64>> = Vec::new();
-    for point in [[0.0; 3], [setup.arm, 0.0, 0.0], [0.0, setup.arm, 0.0]] {
-        let shifted = Model { mountings: vec![Pose([x, y, z, point]); bare.mountings.len()], ..bare.clone() };
-        for sample in &samples {
+    for point in points {
+        let shifted =
+            Model { mountings: vec![Pose([x, y, z, *point]); bare.mountings.len()], ..bare.clone() };
+        for row in rows {
             // Expressions and tables need not be defined at every sample.
-            let Ok(points) = shifted.tool_points(std::slice::from_ref(sample)) else { continue };
+            let Ok(points) = shifted.tool_points(std::slice::from_ref(row)) else { continue };
             let moves = points.derivatives().iter().flat_map(|moves| moves.row_iter());
             moved.extend(moves.map(|row| row.clone_owned()).filter(|row| row.iter().all(|v| v.is_finite())));
         }
     }
-    Ok(match moved.is_empty() {
-        true => DMatrix::zeros(0, rows.len()),
+    match moved.is_empty() {
+        true => DMatrix::zeros(0, unknowns.len()),
         false => DMatrix::from_rows(&moved),
-    })
+    }
 }
 
 /// Returns the combinations `U V` of the parts that have an effect, in columns.

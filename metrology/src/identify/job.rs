@@ -227,7 +227,7 @@ fn found_model(
         is_placement: solved.is_placement(),
         covariance: match solved.is_placement() {
             true => FoundCovariance::default(),
-            false => FoundCovariance::new(setup, solved, converted)?,
+            false => FoundCovariance::new(setup, solved, converted, rows)?,
         },
         estimated,
         unexplained: unexplained(setup, solved, rows, left)?,

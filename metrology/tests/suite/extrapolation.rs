@@ -5,7 +5,6 @@ use abbe::Manipulator;
 use abbe::identify::Loss;
 use abbe_interpreter::Interpreter;
 use abbe_metrology::Acceptance;
-use abbe_metrology::compensate::Compensate;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::{Identify, Prior, Report, Settings};
 use abbe_metrology::measure::Measure;

@@ -3,7 +3,7 @@
 use abbe::identify::Loss;
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::Data;
-use abbe_metrology::identify::{Family, Identify, Prior, Report, Settings};
+use abbe_metrology::identify::{Family, Identify, Report, Settings};
 use abbe_metrology::measure::Measure;
 use abbe_metrology::simulate::{Places, Simulate};
 
@@ -32,8 +32,7 @@ fn measured(text: &str, rows: usize, seed: u64) -> Data {
 fn identified(data: &Data, terms: &[Family]) -> Report {
     let machine = machine(&ur5(""));
     let map = map(&machine);
-    let settings =
-        Settings { loss: Loss::Squares, prior: Prior::default(), folds: 10, time: None, points: false };
+    let settings = Settings { loss: Loss::Squares, ..Settings::default() };
     let (data, terms, accept) = (data.clone(), terms.to_vec(), Acceptance::default());
     let job = Identify { machine, map, data, test: None, terms, harmonics: Vec::new(), settings, accept };
     job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"))

@@ -4,16 +4,12 @@
 use abbe::analysis::sampling::{draw, stream};
 use abbe::{Distribution, Manipulator};
 use abbe_interpreter::Interpreter;
-use abbe_metrology::Acceptance;
-use abbe_metrology::data::Data;
-use abbe_metrology::measure::Measure;
-use abbe_metrology::simulate::{Places, Simulate};
 use abbe_spec::Spec;
 use abbe_study::Machine;
 use abbe_tests::sample_size;
 use rand::RngExt;
 
-use super::alternatives::{ARM, ZERO_OF_Q5, arm, identified_from, point_map};
+use super::alternatives::{ARM, arm, identified_from};
 
 /// Another tool, whose point is farther from the flange and beside the axis of q6.
 const OTHER: &str = "Tx(90 mm) Ty(-40 mm) Tz(250 mm)";
@@ -124,7 +120,9 @@ fn stated_region_holds_for_another_tool() {
     }
     for (tool, inside, sum) in [("measured", inside[0], squares[0]), ("another", inside[1], squares[1])] {
         let (share, square) = (inside as f64 / f64::from(count), sum / f64::from(count));
-        println!("{tool} tool: inside {share:.3}, mean square {square:.2}; {count} points of {seeds} machines");
+        println!(
+            "{tool} tool: inside {share:.3}, mean square {square:.2}; {count} points of {seeds} machines"
+        );
         assert!((share - 0.95).abs() < scatter, "{tool}: {share}");
         assert!((square - 1.0).abs() < scatter_of_squares, "{tool}: {square}");
     }
@@ -140,10 +138,7 @@ fn errors_of_the_base_move_the_machine() {
     let row =
         |i: usize| format!("[{}],", (0..6).map(|j| if i == j { "1e-12," } else { "0," }).collect::<String>());
     let rows: String = (0..6).map(row).collect();
-    let text = format!(
-        "{}\n[covariance]\nof = [{of}]\nrows = [{rows}]\n",
-        ARM.replace(MEASURED, OTHER)
-    );
+    let text = format!("{}\n[covariance]\nof = [{of}]\nrows = [{rows}]\n", ARM.replace(MEASURED, OTHER));
     let mut calibrated = machine(&text);
     calibrated.add_uncertainties();
     let interpreter = Interpreter::new(calibrated.spec);
