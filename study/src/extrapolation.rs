@@ -41,10 +41,12 @@ pub struct ToolPointDeviation {
 
 /// Counts the configurations outside the ranges on which the errors of a spec were fitted, and
 /// warns of them with their uncertainty. `what` names the configurations, in the plural: `rows`.
-/// Returns `None` if there are none.
+/// `points` are those whose uncertainty is stated, in the frame of the
+/// tool. Returns `None` if there are none.
 pub fn warn_of_extrapolation<'r>(
     spec: &Spec,
     manipulator: &dyn Manipulator,
+    points: &[[f64; 3]],
     what: &str,
     configurations: impl Iterator<Item = (&'r [f64], &'r [f64])>,
     notes: &mut dyn Notes,
@@ -68,7 +70,7 @@ pub fn warn_of_extrapolation<'r>(
     if outside.is_empty() {
         return None;
     }
-    let standard_deviation = ToolPointDeviation::new(spec, manipulator, &outside);
+    let standard_deviation = ToolPointDeviation::new(spec, manipulator, points, &outside);
     let named = spec.fitted.iter().zip(&counts).filter(|(_, count)| **count > 0);
     let named = named.map(|(fitted, count)| {
         let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
@@ -90,13 +92,16 @@ impl ToolPointDeviation {
     /// `None` if there are none or the spec states no covariance.
     pub fn new(spec: &Spec, manipulator: &dyn Manipulator, outside: &[(&[f64], &[f64])]) -> Option<Self> {
         let errors = CalibrationErrors::new(spec);
-        let prediction = Prediction::new(spec, manipulator, &errors, [0.0; 3])?;
         let step = outside.len().div_ceil(SAMPLES).max(1);
-        let beyond = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
-        let beyond = prediction.deviations(beyond);
-        let within = prediction.deviations(within(spec));
+        let (mut beyond, mut inside) = (Vec::new(), Vec::new());
+        for point in points {
+            let prediction = Prediction::new(spec, manipulator, &errors, *point)?;
+            let outside = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
+            beyond.extend(prediction.deviations(outside));
+            inside.extend(prediction.deviations(within(spec)));
+        }
         let extrapolated_max = beyond.iter().fold(0.0, |most: f64, deviation| most.max(*deviation));
-        Some(Self { within: rms(&within)?, extrapolated: rms(&beyond)?, extrapolated_max })
+        Some(Self { within: rms(&inside)?, extrapolated: rms(&beyond)?, extrapolated_max })
     }
 
     fn sentence(&self, spec: &Spec) -> String {

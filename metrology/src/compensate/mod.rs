@@ -172,7 +172,7 @@ impl Compensate {
         let data = self.data.completed(map, &*manipulator, &machine.spec);
         let configurations = || data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         let extrapolated =
-            warn_of_extrapolation(&machine.spec, &*manipulator, "rows", configurations(), notes);
+            warn_of_extrapolation(&machine.spec, &*manipulator, &[[0.0; 3]], "rows", configurations(), notes);
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
         let base_frame = BaseFramePoses::new(map, &data);
         let (mut row_summary, mut norms) = (RowSummary::default(), [[RunningSums::default(); 2]; 2]);

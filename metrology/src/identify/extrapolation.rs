@@ -20,7 +20,8 @@ pub struct TestExtrapolation {
 }
 
 impl TestExtrapolation {
-    /// Returns none if there are no such rows. `written` is the machine of the written spec.
+    /// Returns none if there are no such rows. `written` is the machine of the written spec,
+    /// `points` are the measured ones in the frame of the tool.
     ///
     /// The deviations follow from the covariance of the written spec, as in `measure`. Errors that
     /// the model lacks are not included.
@@ -29,6 +30,7 @@ impl TestExtrapolation {
         spec: &Spec,
         test: &Data,
         written: Option<&Interpreter>,
+        points: &[[f64; 3]],
     ) -> Option<Self> {
         let test = written.map_or(Cow::Borrowed(test), |_| found.as_written(spec, test));
         let places = test.observations.iter().map(|row| (&row.q[..], &row.u[..]));
@@ -39,7 +41,7 @@ impl TestExtrapolation {
             return None;
         }
         let standard_deviation =
-            written.and_then(|written| ToolPointDeviation::new(written.spec(), written, &outside));
+            written.and_then(|written| ToolPointDeviation::new(written.spec(), written, points, &outside));
         Some(Self { count: outside.len(), standard_deviation })
     }
 }

@@ -94,7 +94,7 @@ impl FoundCovariance {
         let nothing = || Measurement::Points(Vec::new().into());
         let samples = samples.into_iter().map(|sample| Observation::new(0, sample.q, sample.u, nothing()));
         let samples: Vec<Observation> = samples.collect();
-        let effects = |points: &[[f64; 3]], at: &[Observation]| effects(model, &rows, points, at);
+        let effects = |points: &[[f64; 3]], at: &[Observation]| effects(&setup.ideal, &rows, points, at);
         let last = setup.description.frames.len() - 1;
         // Instruments at unknown places are set up anew with the base.
         let stands = |unknown: &Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Fixture(..));
@@ -192,6 +192,9 @@ fn parts(solved: &Solved, joint_errors: Option<&AsJointErrors>) -> Result<DMatri
 /// Subtracts from each part the motions of what is set up anew, in the rows `anew`, that are
 /// nearest to its effect.
 fn without_setups(effects: &DMatrix<f64>, anew: &[usize], parts: &mut DMatrix<f64>) {
+    if anew.is_empty() || effects.nrows() == 0 {
+        return;
+    }
     let mut motions = effects.select_columns(anew);
     let lengths: Vec<f64> =
         motions.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
@@ -204,7 +207,8 @@ fn without_setups(effects: &DMatrix<f64>, anew: &[usize], parts: &mut DMatrix<f6
 }
 
 /// Computes the displacements of points, given in the frame of the tool, by each unknown at some
-/// configurations.
+/// configurations. The model is the ideal chain, on which `analyze` propagates errors: unknowns that
+/// cancel each other cancel there.
 fn effects(model: &Model, unknowns: &[Unknown], points: &[[f64; 3]], rows: &[Observation]) -> DMatrix<f64> {
     let bare = Model { targets: Vec::new(), ..model.with(unknowns.to_vec()) };
     let [x, y, z, _] = Pose::IDENTITY.0;

@@ -318,7 +318,8 @@ fn report(
         test: test_sizes,
         test_rows_of_the_fit: overlap,
         accepted,
-        extrapolated: test.and_then(|test| TestExtrapolation::new(&found, spec, test, written)),
+        extrapolated: test
+            .and_then(|test| TestExtrapolation::new(&found, spec, test, written, &setup.delivered_points())),
         cross_validation,
         terms: gains.collect(),
         tried: chosen.tried,

@@ -245,6 +245,16 @@ impl<'a> Setup<'a> {
         Ok(())
     }
 
+    /// Returns the measured points in the frame of the tool, as the map states them: targets, or
+    /// the origin of the measured frame.
+    pub(crate) fn delivered_points(&self) -> Vec<[f64; 3]> {
+        let Model { mountings, targets, .. } = &self.delivered;
+        match self.pose {
+            true => mountings.iter().map(Pose::position).collect(),
+            false => self.delivered.mounted(targets),
+        }
+    }
+
     /// Returns the unknowns of base and tool.
     pub(crate) fn base_and_tool(&self) -> Vec<Unknown> {
         self.without_exact(self.ideal.base_and_tool(self.pose))

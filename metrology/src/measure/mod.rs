@@ -194,7 +194,14 @@ impl Measure {
         evaluated.data.note_on_time().iter().for_each(|note| notes.warn(note));
         let rows = &evaluated.data.observations;
         let places = || rows.iter().map(|row| (&row.q[..], &row.u[..]));
-        let extrapolated = warn_of_extrapolation(&machine.spec, &interpreter, "rows", places(), notes);
+        let extrapolated = warn_of_extrapolation(
+            &machine.spec,
+            &interpreter,
+            &setup.delivered_points(),
+            "rows",
+            places(),
+            notes,
+        );
         let Figures { rms, configurations, standard_error, .. } = evaluated.norms;
         if let Some(warning) = too_large(rms, fitted, &setup) {
             notes.warn(&warning);

@@ -297,7 +297,14 @@ impl AnalysisSweep<'_> {
         let reached = Subset { workspace, count: EXTRAPOLATED }.reached();
         let configurations = reached.iter().map(|reached| (&reached.q[..], &reached.u[..]));
         let evaluator = machine.evaluator(true);
-        warn_of_extrapolation(&machine.spec, &*evaluator, "configurations", configurations, notes)
+        warn_of_extrapolation(
+            &machine.spec,
+            &*evaluator,
+            &[[0.0; 3]],
+            "configurations",
+            configurations,
+            notes,
+        )
     }
 
     pub(super) fn not_evaluated(&self, refused: &Unevaluated) -> Diagnostics {
