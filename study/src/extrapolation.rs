@@ -90,7 +90,12 @@ pub fn warn_of_extrapolation<'r>(
 impl ToolPointDeviation {
     /// Returns the deviations within the fitted ranges and at configurations outside of them;
     /// `None` if there are none or the spec states no covariance.
-    pub fn new(spec: &Spec, manipulator: &dyn Manipulator, outside: &[(&[f64], &[f64])]) -> Option<Self> {
+    pub fn new(
+        spec: &Spec,
+        manipulator: &dyn Manipulator,
+        points: &[[f64; 3]],
+        outside: &[(&[f64], &[f64])],
+    ) -> Option<Self> {
         let errors = CalibrationErrors::new(spec);
         let step = outside.len().div_ceil(SAMPLES).max(1);
         let (mut beyond, mut inside) = (Vec::new(), Vec::new());
