@@ -153,11 +153,7 @@ impl Angle {
 impl HeldJoint {
     fn expression(self, dimension: Dimension) -> Expression {
         let joint = Expression::from_symbol(Symbol::Variable(self.variable), dimension);
-        let number = |end| Expression::from_number(end, dimension);
-        match self.range {
-            Some([least, most]) => joint.or_larger(number(least)).or_smaller(number(most)),
-            None => joint,
-        }
+        self.range.map_or_else(|| joint.clone(), |range| joint.clone().clamped(range))
     }
 }
 

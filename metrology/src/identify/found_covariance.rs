@@ -22,7 +22,7 @@ use abbe::analysis::decompose::symmetric_eigen;
 use abbe::analysis::{Workspace, joint_samples};
 use abbe::identify::{Failure, Measurement, Model, Observation, Unknown};
 use abbe::{Component, Error, Pose, Quantity};
-use nalgebra::{Cholesky, DMatrix, DVector, RowDVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, RowDVector, SymmetricEigen};
 
 use super::as_joint_errors::AsJointErrors;
 use super::fitted::{fitted_mountings, fitted_targets};
@@ -38,6 +38,9 @@ const NO_EFFECT: f64 = 1e-6;
 
 /// Smallest entry of a part, as a share of the largest effect of an entry in it.
 const ROUNDING: f64 = 1e-9;
+
+/// Failure of a decomposition.
+const NOT_FINITE: Failure = Failure::Machine(Error::NotFinite { quantity: Quantity::Jacobian, index: 0 });
 
 /// Covariance of errors of the machine, as independent parts.
 #[derive(Clone, Debug, Default)]
@@ -165,15 +168,9 @@ fn parts(solved: &Solved, joint_errors: Option<&AsJointErrors>) -> Result<DMatri
         }
     }
     let written = w * forms;
-    let root = match Cholesky::new(fit.covariance.clone()) {
-        Some(cholesky) => cholesky.l(),
-        None => symmetric_eigen(fit.covariance.clone()).map_or_else(
-            || DMatrix::zeros(kept.len(), 0),
-            |SymmetricEigen { eigenvalues, eigenvectors }| {
-                eigenvectors * DMatrix::from_diagonal(&eigenvalues.map(|value| value.max(0.0).sqrt()))
-            },
-        ),
-    };
+    let SymmetricEigen { eigenvalues, eigenvectors } =
+        symmetric_eigen(fit.covariance.clone()).ok_or(NOT_FINITE)?;
+    let root = eigenvectors * DMatrix::from_diagonal(&eigenvalues.map(|value| value.max(0.0).sqrt()));
     // Places on the bench, and where the machine stands on it, are no errors of the machine.
     let is_of_bench =
         |unknown: Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Fixture(..) | Unknown::Zero(_));
@@ -234,9 +231,8 @@ fn with_effect(effects: &DMatrix<f64>, parts: &DMatrix<f64>) -> Result<DMatrix<f
     let moved = effects * parts;
     let single = |k: usize| effects.column(k).norm() * parts.row(k).amax();
     let largest = (0..effects.ncols()).map(single).fold(0.0, f64::max);
-    let eigen = symmetric_eigen(moved.tr_mul(&moved));
-    let not_finite = Failure::Machine(Error::NotFinite { quantity: Quantity::Jacobian, index: 0 });
-    let SymmetricEigen { eigenvalues, eigenvectors } = eigen.ok_or(not_finite)?;
+    let SymmetricEigen { eigenvalues, eigenvectors } =
+        symmetric_eigen(moved.tr_mul(&moved)).ok_or(NOT_FINITE)?;
     let has_effect = |i: &usize| eigenvalues[*i].max(0.0).sqrt() > NO_EFFECT * largest;
     let mut order: Vec<usize> = (0..eigenvalues.len()).filter(has_effect).collect();
     order.sort_by(|a, b| eigenvalues[*b].total_cmp(&eigenvalues[*a]));

@@ -1,5 +1,6 @@
 //! Terms of richer models: error functions with an unknown magnitude each.
 
+use abbe::analysis::sampling::range_of;
 use abbe::identify::Observation;
 use abbe::{Component, VariableKind};
 use abbe_spec::edit::write::number;
@@ -111,9 +112,7 @@ const TOLD: f64 = core::f64::consts::FRAC_PI_4;
 /// unless they cover nearly all of its turn or of its limits.
 pub(super) fn held_ranges(spec: &Spec, rows: &[Observation]) -> Vec<Option<[f64; 2]>> {
     let of_joint = |(i, variable): (usize, &abbe_spec::Variable)| {
-        let (least, most) = rows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), row| {
-            (least.min(row.q[i]), most.max(row.q[i]))
-        });
+        let [least, most] = range_of(rows.iter().map(|row| row.q[i]));
         let limits = variable.limits[1] - variable.limits[0];
         let whole = variable.kind.either(limits.min(core::f64::consts::TAU), limits);
         let round = |end: f64| number(end, 4).parse().unwrap_or(end);

@@ -45,20 +45,16 @@ impl Expression {
         self.combined(Binary::Pow, Self::from_number(exponent, Dimension::NONE), dimension, value)
     }
 
-    /// Returns the larger of this and an expression of the same dimension.
-    pub fn or_larger(self, other: Self) -> Self {
-        self.chosen(Binary::Max, other)
-    }
-
-    /// Returns the smaller of this and an expression of the same dimension.
-    pub fn or_smaller(self, other: Self) -> Self {
-        self.chosen(Binary::Min, other)
-    }
-
-    fn chosen(self, binary: Binary, other: Self) -> Self {
+    /// Holds the value at the ends of a range outside of it.
+    pub fn clamped(self, [least, most]: [f64; 2]) -> Self {
         let dimension = self.whole().dimension;
-        let value = self.constant().zip(other.constant()).map(|(l, r)| binary.evaluate(l, r));
-        self.combined(binary, other, dimension, value)
+        let end = |end| Self::from_number(end, dimension.unwrap_or(Dimension::NONE));
+        self.combined(Binary::Max, end(least), dimension, None).combined(
+            Binary::Min,
+            end(most),
+            dimension,
+            None,
+        )
     }
 
     fn combined(self, binary: Binary, right: Self, dimension: Option<Dimension>, value: Option<f64>) -> Self {
