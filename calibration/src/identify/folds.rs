@@ -82,7 +82,7 @@ impl Folds {
 
     /// Returns distances of rows of these folds with the folds as the independent samples, in place
     /// of configurations.
-    pub fn of(&self, data: &[Observation], distances: Distances) -> Distances {
+    pub fn distances_by_fold(&self, data: &[Observation], distances: Distances) -> Distances {
         let rows = data.iter().zip(&self.fold).map(|(row, fold)| (row.configuration, *fold));
         let fold: HashMap<u32, u32> = rows.collect();
         distances.renumbered(|one| fold.get(&one).copied().unwrap_or(one))

@@ -96,7 +96,7 @@ impl Assessed {
         let by_block = |folds: Folds| {
             let distances =
                 cross_validate(model, rows, fit, &folds).map_err(|failure| diagnose(&failure, data))?;
-            Ok(folds.of(rows, distances))
+            Ok(folds.distances_by_fold(rows, distances))
         };
         Ok(Self {
             cross_validated: cross_validated.clone(),

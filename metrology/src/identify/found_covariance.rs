@@ -204,8 +204,8 @@ fn without_setups(effects: &DMatrix<f64>, anew: &[usize], parts: &mut DMatrix<f6
 }
 
 /// Computes the displacements of points, given in the frame of the tool, by each unknown at some
-/// configurations. The model is the ideal chain, on which `analyze` propagates errors: unknowns that
-/// cancel each other cancel there.
+/// configurations. The model is the ideal chain, on which `analyze` propagates errors: unknowns
+/// that cancel each other cancel there.
 fn effects(model: &Model, unknowns: &[Unknown], points: &[[f64; 3]], rows: &[Observation]) -> DMatrix<f64> {
     let bare = Model { targets: Vec::new(), ..model.with(unknowns.to_vec()) };
     let [x, y, z, _] = Pose::IDENTITY.0;

@@ -109,7 +109,7 @@ impl Notes for RecordedNotes {
     }
 }
 
-/// Computes the scatter of the tool points of several machines: root mean square over
+/// Computes the scatter of the measured points of several machines: root mean square over
 /// configurations, all directions together, in mm.
 fn scatter(machines: &[Machine], data: &Data) -> f64 {
     let s: Vec<f64> = machines[0].spec.parameters.iter().map(|parameter| parameter.value).collect();
@@ -121,7 +121,7 @@ fn scatter(machines: &[Machine], data: &Data) -> f64 {
             .iter()
             .map(|one| {
                 let magnitudes = vec![1.0; one.description().sources.len()];
-                one.drawn_pose(&row.q, &s, &row.u, &magnitudes).unwrap().unwrap().position()
+                one.drawn_pose(&row.q, &s, &row.u, &magnitudes).unwrap().unwrap().apply([90.0, -35.0, 60.0])
             })
             .collect();
         for axis in 0..3 {

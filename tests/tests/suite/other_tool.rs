@@ -128,8 +128,8 @@ fn stated_region_holds_for_another_tool() {
     }
 }
 
-/// An error of `F_0` in the covariance moves the tool point p by `e + ω × p`, with the rotations about
-/// y, z, x.
+/// An error of `F_0` in the covariance moves the tool point p by `e + ω × p`, with the rotations
+/// about y, z, x.
 #[test]
 fn errors_of_the_base_move_the_machine() {
     const SIZE: f64 = 1e-6;
