@@ -228,7 +228,6 @@ class AnalyzeReport(Report):
     extrapolated: Extrapolation | None
     """Configurations outside the fitted ranges, and the uncertainty there; None if there are none."""
 
-
     record: Named[str] | None
     """Stated date, and the version of abbe; absent if there is no date."""
 
@@ -2156,7 +2155,6 @@ class MeasureReport(Report):
 
     extrapolated: Extrapolation | None
     """Rows outside the fitted ranges, and the predicted uncertainty there; none if there are no such rows."""
-
 
     configurations: int
     """Number of independent configurations."""
