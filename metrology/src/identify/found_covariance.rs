@@ -72,6 +72,9 @@ impl FoundCovariance {
         data: &[Observation],
     ) -> Result<Self, Failure> {
         let model = &solved.model;
+        if solved.fit.identifiable.kept.is_empty() {
+            return Ok(Self::default());
+        }
         let base = Component::ALL.map(|component| Unknown::Base(0, component));
         let of_machine = |unknown: &Unknown| matches!(unknown, Unknown::Error(..) | Unknown::Magnitude(_));
         let rows: Vec<Unknown> =
