@@ -55,7 +55,7 @@ pub(crate) struct Identify {
     robust: Loss,
     /// Prior standard deviation of the errors, relative to the length of the arm for offsets and in
     /// rad for angles: a number (0 for no prior), `spec` for the spec's random sources, or `auto`
-    /// for the value chosen by cross-validation
+    /// for the value chosen by cross-validation. Additional terms have 0.001 at most
     #[arg(long, value_name = "SHARE", default_value_t)]
     prior: Prior,
     /// Acceptance limits on mean, rms, p95 and max of the position error on data that nothing was
