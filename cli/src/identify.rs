@@ -131,9 +131,10 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    let next = match &arguments.out {
-        None => "--out SPEC writes the identified machine, --full lists every error",
-        Some(_) => "abbe compensate with both files corrects commands, --full lists every error",
+    let next = match (&arguments.out, report.found.is_placement) {
+        (None, _) => "--out SPEC writes the identified machine, --full lists every error",
+        (Some(_), true) => "--full lists every place with its standard deviation",
+        (Some(_), false) => "abbe compensate with both files corrects commands, --full lists every error",
     };
     let is_json = arguments.showing.json;
     let mut text = arguments.showing.answer(&report, document(), next)?;
