@@ -55,7 +55,7 @@ pub(crate) struct Identify {
     robust: Loss,
     /// Prior standard deviation of the errors, relative to the length of the arm for offsets and in
     /// rad for angles: a number (0 for no prior), `spec` for the spec's random sources, or `auto`
-    /// for the value chosen by cross-validation
+    /// for the value chosen by cross-validation. Additional terms have 0.001 at most
     #[arg(long, value_name = "SHARE", default_value_t)]
     prior: Prior,
     /// Acceptance limits on mean, rms, p95 and max of the position error on data that nothing was
@@ -131,9 +131,10 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    let next = match &arguments.out {
-        None => "--out SPEC writes the identified machine, --full lists every error",
-        Some(_) => "abbe compensate with both files corrects commands, --full lists every error",
+    let next = match (&arguments.out, report.found.is_placement) {
+        (None, _) => "--out SPEC writes the identified machine, --full lists every error",
+        (Some(_), true) => "--full lists every place with its standard deviation",
+        (Some(_), false) => "abbe compensate with both files corrects commands, --full lists every error",
     };
     let is_json = arguments.showing.json;
     let mut text = arguments.showing.answer(&report, document(), next)?;

@@ -122,8 +122,7 @@ pub(super) fn estimate(
     };
     let (mut at, mut shared) = (Vec::new(), None);
     for _ in 0..ROUNDS {
-        let only = settings.only_placement;
-        let model = setup.real.with(if only { setup.base_and_tool() } else { setup.constants() });
+        let model = setup.real.with(setup.unknowns(settings.only_placement));
         let estimated = || -> Result<_, Failure> {
             let priors = settings.prior.for_model(&model)?;
             let expected = model.expected(&priors)?;

@@ -260,9 +260,10 @@ impl<'a> Setup<'a> {
         self.without_exact(self.ideal.base_and_tool(self.pose))
     }
 
-    /// Returns the unknowns of base, frames and tool.
-    pub(crate) fn constants(&self) -> Vec<Unknown> {
-        self.without_exact(self.ideal.constants(self.pose))
+    /// Returns the unknowns of base and tool, and of frames unless only places are fitted.
+    pub(crate) fn unknowns(&self, only_placement: bool) -> Vec<Unknown> {
+        let Self { ideal, pose, .. } = self;
+        self.without_exact(if only_placement { ideal.base_and_tool(*pose) } else { ideal.constants(*pose) })
     }
 
     fn without_exact(&self, mut unknowns: Vec<Unknown>) -> Vec<Unknown> {

@@ -64,8 +64,7 @@ pub(super) fn solve<'a>(
     let of_terms = magnitudes.take(terms.len());
     // Of equivalent unknowns, magnitudes named in the spec are kept before errors of frames, and
     // terms after them.
-    let constants = if only { setup.base_and_tool() } else { setup.constants() };
-    let model = setup.real.with(of_own.into_iter().chain(constants).chain(of_terms).collect());
+    let model = setup.real.with(of_own.into_iter().chain(setup.unknowns(only)).chain(of_terms).collect());
     let fitted = |model: &Model, prior: Prior| -> Result<Fit, Failure> {
         let mut priors = prior.for_model(model)?;
         let share = prior.share();

@@ -84,7 +84,7 @@ impl Plan {
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
         let setup = Setup::at_home(&interpreter, map)?;
-        let model = setup.ideal.with(setup.constants());
+        let model = setup.ideal.with(setup.unknowns(false));
         let fail = |failure: Failure| mistake::whole(&machine.origin, &failure);
         let used = self.configurations_of_use(&interpreter, description)?;
         let tool_points = model.tool_points(&used).map_err(fail)?;

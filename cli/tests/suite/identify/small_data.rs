@@ -89,6 +89,9 @@ fn a_tip_is_found_without_the_errors_of_the_arm() {
         assert_eq!(report["parameters"].as_array().unwrap().len(), 6);
         assert!(["tool_x", "tool_y", "tool_z"].iter().all(|name| value(name)[1] < 0.5), "{report}");
         assert_eq!(std::fs::read_to_string(&found).unwrap(), shipped("ur5"));
+        // There is nothing to compensate.
+        let text = prints(&[&job[..], only].concat());
+        assert!(text.contains("lists every place") && !text.contains("corrects commands"), "{text}");
         let map = std::fs::read_to_string(folder.path().join("found.map.toml")).unwrap();
         let tip = map.split("targets = [").nth(1).unwrap().split(']').next().unwrap();
         let tip: Vec<f64> =
