@@ -30,8 +30,9 @@ impl Machine {
     /// additional error terms to try: "auto" for all, or one or several of joint, load, elastic,
     /// backlash, product, drift, profile. `robust`: robust loss, "none", "huber" or "tukey".
     /// `prior`: prior standard deviation of the errors, relative to the length of the arm and in
-    /// rad, or "spec" or "auto"; additional terms have 0.001 at most. `folds`: number of folds of
-    /// the cross-validation. `time`: time limit in seconds for the search for additional terms.
+    /// rad: "auto" for 0.001 times a scale that the data choose, a number (0 holds them at zero),
+    /// or "spec"; additional terms have 0.001 at most. `folds`: number of folds of the
+    /// cross-validation. `time`: time limit in seconds for the search for additional terms.
     /// `resample=b`: repetition b of a bootstrap over configurations (`abbe.fleet.bootstrap` runs
     /// many). `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
     ///

@@ -11,7 +11,7 @@
 //!
 //! is 1 in the mean for independent configurations, because residuals `(1 − H) e` of white noise
 //! give `E gᵀ N⁻¹ g = σ² t`. It has about `(Σ_b tr M_b)² / Σ_b tr M_b²` degrees of freedom. The
-//! information of the data is divided by κ², that of priors is not.
+//! part of the covariance that is due to the data is multiplied by κ², that of the prior is not.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -57,11 +57,9 @@ pub fn between_blocks(
     fit: &Fit,
     blocks: &Folds,
 ) -> Result<Option<BetweenBlocks>, Failure> {
-    let kept = model.with(fit.identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
-    let x: Vec<f64> = fit.identifiable.kept.iter().map(|k| fit.x[*k]).collect();
-    let prior = |k: &usize| fit.priors.get(*k).copied().flatten();
-    let (p, priors) = (x.len(), fit.identifiable.kept.iter().map(prior).collect::<Vec<_>>());
-    let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &priors, &x);
+    let (kept, x) = fit.of_kept(model);
+    let p = x.len();
+    let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &fit.prior, &x);
     let root = problem.a.rows(0, p.min(problem.a.nrows()));
     let Some(l) = root.solve_upper_triangular(&DMatrix::identity(root.nrows(), p)) else { return Ok(None) };
     let groups = Configurations::new(data).rows();
@@ -97,19 +95,13 @@ pub fn between_blocks(
         (0..2).for_each(|i| sums.traces[i] += own.traces[i]);
     })?;
     let (square, [trace, traces]) = (between.variance() / sums.variance(), between.traces);
-    let Some(inverse) = fit.covariance.clone().cholesky().map(|cholesky| cholesky.inverse()) else {
-        return Ok(None);
-    };
     if blocks.count < 2 || !square.is_finite() {
         return Ok(None);
     }
     let freedom = trace * trace / traces;
-    let mut information = inverse / square;
-    for (i, k) in fit.identifiable.kept.iter().enumerate() {
-        let prior = fit.priors.get(*k).copied().flatten().map_or(0.0, |prior| prior.powi(-2));
-        information[(i, i)] += prior * (1.0 - 1.0 / square);
-    }
-    let Some(covariance) = information.cholesky().map(|cholesky| cholesky.inverse()) else { return Ok(None) };
+    let prior = &fit.prior * &l;
+    let of_prior = &l * prior.tr_mul(&prior) * l.transpose();
+    let covariance = &fit.covariance * square - of_prior * (square - 1.0);
     let within = sums.traces[0].powi(2) / sums.traces[1];
     Ok(Some(BetweenBlocks {
         factor: square.sqrt(),

@@ -52,9 +52,7 @@ pub fn between_stations(
     fit: &Fit,
     sizes: &[Option<f64>],
 ) -> Result<Option<BetweenStations>, Failure> {
-    let kept = model.with(fit.identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
-    let pick = |k: &usize| (fit.x[*k], fit.priors.get(*k).copied().flatten());
-    let (x, priors): (Vec<f64>, Vec<Option<f64>>) = fit.identifiable.kept.iter().map(pick).unzip();
+    let (kept, x) = fit.of_kept(model);
     let p = x.len();
     let (mut series, mut squares, mut freedom) = (Vec::new(), 0.0, 0.0);
     for station in 0..model.stations.len() {
@@ -79,7 +77,7 @@ pub fn between_stations(
         return Ok(None);
     }
     let noise = (squares / freedom).sqrt();
-    let information = DVector::from_fn(p, |k, _| priors[k].map_or(0.0, |prior| 1.0 / (prior * prior)));
+    let information = fit.prior.tr_mul(&fit.prior);
     let varies = fit.identifiable.kept.iter().map(|k| match model.unknowns[*k].is_placement() {
         true => 0.0,
         false => sizes.get(*k).copied().flatten().map_or(0.0, |size| size * size),
@@ -117,12 +115,11 @@ fn minus_twice_likelihood(
     series: &[Series],
     share: f64,
     varies: &DVector<f64>,
-    information: &DVector<f64>,
+    information: &DMatrix<f64>,
     x: &DVector<f64>,
 ) -> Option<f64> {
-    let mut normal = DMatrix::from_diagonal(information);
-    let mut right = -information.component_mul(x);
-    let mut sum = x.dot(&information.component_mul(x));
+    let (mut normal, mut right) = (information.clone(), -(information * x));
+    let mut sum = -x.dot(&right);
     for one in series {
         let root = variance(one, share, varies).cholesky()?;
         sum += 2.0 * root.l_dirty().diagonal().iter().map(|value| value.ln()).sum::<f64>();
@@ -156,11 +153,10 @@ fn covariance(
     noise: f64,
     share: f64,
     varies: &DVector<f64>,
-    information: &DVector<f64>,
+    prior: &DMatrix<f64>,
 ) -> Option<DMatrix<f64>> {
     // In units of the stated uncertainty, by which the fit weighted the rows.
-    let prior = DMatrix::from_diagonal(information);
-    let (mut normal, mut spread) = (prior.clone(), prior);
+    let (mut normal, mut spread) = (prior.clone(), prior.clone());
     for one in series {
         let r = &one.r * noise;
         normal += r.tr_mul(&r);

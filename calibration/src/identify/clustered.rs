@@ -1,18 +1,19 @@
 //! Covariance of the unknowns from clustered measurements: repeated visits and several targets of a
 //! configuration are not independent.
 //!
-//! With `J` and `r` in units of the uncertainty, `N = JᵀJ`, and priors of information `P`:
+//! With `J` and `r` in units of the uncertainty, `N = JᵀJ`, priors of information `P`, and
+//! `B = (N + P)⁻¹`:
 //!
 //! - One point per configuration, without repeated visits: all numbers are independent,
-//!   `σ² = rᵀr/(n − p)`, and `C = (N/σ² + P)⁻¹`.
+//!   `σ² = rᵀr/(n − p)`, `p = tr B N`, and `C = B (σ² N + P) B`.
 //! - Views of a camera: the same, if the noise of single pixels [explains](super::views) the
 //!   residuals; otherwise as poses.
 //! - Points visited repeatedly: visits share the error of the model at the configuration,
 //!   `V_c = τ² 1 1ᵀ + σ_w² I` along each axis. With `S_c` the sum of the rows of `J` of a
 //!   configuration, and means `r̄_c`: `σ_w² = Σ (r − r̄_c)²/(n − m)` for `m` means;
-//!   `τ² = (Σ n_c r̄_c² − σ_w² (m − p))/(n − tr(N⁻¹ Σ S_cᵀ S_c))`, from the expected value of that
-//!   sum. `M = τ² Σ S_cᵀ S_c + σ_w² N`, and `C = (N M⁻¹ N + P)⁻¹`.
-//! - Several targets, or poses: the sandwich estimator `C = B (Σ g_c g_cᵀ + P) B`, `B = (N + P)⁻¹`,
+//!   `τ² = (Σ n_c r̄_c² − σ_w² (m − p))/(n − tr(B Σ S_cᵀ S_c))`, from the expected value of that
+//!   sum. `M = τ² Σ S_cᵀ S_c + σ_w² N`, and `C = B (M + P) B`.
+//! - Several targets, or poses: the sandwich estimator `C = B (Σ g_c g_cᵀ + P) B`,
 //!   with `g_c = J_cᵀ (I − H_c)^(−1/2) r_c`, `H_c = J_c B J_cᵀ`: Bell and McCaffrey, *Bias
 //!   reduction in standard errors for linear regression with multi-stage samples*, 2002 (CR2). With
 //!   few configurations per unknown, CR1 is too small and CR3 too large.
@@ -26,7 +27,6 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DMatrixView, DVector, DVectorView};
 
 use super::blocks::by_blocks;
-use super::linearize::with_priors;
 use super::solver::Solver;
 use super::triangle::Triangle;
 use super::{Configurations, Failure};
@@ -67,7 +67,7 @@ impl Solver<'_> {
         let numbers = configurations.numbers(data());
         let at_most = |most: usize| numbers.iter().map(|count| (*count as usize).min(most)).sum::<usize>();
         let n = self.model.count(data());
-        let p = self.x.len();
+        let p = self.effective();
         let (means, bounded) = (at_most(usize::MAX), at_most(POSE));
         let several = at_most(3) < means;
         let count = configurations.count;
@@ -84,7 +84,7 @@ impl Solver<'_> {
         let distances = self.model.known_distances.len();
         let used: Vec<usize> = used().collect();
         if !several && n == means + distances || self.has_independent_pixels(&used)? {
-            let freedom = n as f64 - p as f64;
+            let freedom = n as f64 - p;
             let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
             return Ok(known(
                 self.covariance(sigma),
@@ -98,7 +98,7 @@ impl Solver<'_> {
         let groups = groups.slices();
         if several {
             let (covariance, sigma) = self.sandwich(&groups, n - distances)?;
-            let freedom = (count as f64 - 1.0).min(bounded as f64 - p as f64);
+            let freedom = (count as f64 - 1.0).min(bounded as f64 - p);
             let prior = self.covariance((n as f64 / bounded as f64).sqrt());
             return Ok(known(covariance, prior, sigma, freedom, Independent::Configurations));
         }
@@ -150,41 +150,32 @@ impl Solver<'_> {
             between += part.1;
             within += part.2;
         })?;
-        let (n, m, p) = (n as f64, means as f64, p as f64);
+        let (n, m, p) = (n as f64, means as f64, self.effective());
         let alone = within.max(0.0) / (n - m);
         let plain = || {
             let sigma = (self.cost_of_data() / (n - p).max(1.0)).sqrt();
             Ok((self.covariance(sigma), sigma, n - p))
         };
-        let r = self
-            .data_alone
-            .view((0, 0), (self.x.len().min(self.data_alone.nrows()), self.x.len()))
-            .into_owned();
-        let sums = sums.finish().columns(0, self.x.len()).into_owned();
-        // W = R_S R⁻¹, with R_Sᵀ R_S = Σ S_cᵀ S_c: from Rᵀ Wᵀ = R_Sᵀ.
-        let Some(w) = r.transpose().solve_lower_triangular(&sums.transpose()).map(|w| w.transpose()) else {
-            return plain();
-        };
+        let Some(l) = self.half() else { return plain() };
+        // Wᵀ W = Lᵀ Σ S_cᵀ S_c L.
+        let w = sums.finish().columns(0, self.x.len()) * &l;
         let shared = (between - alone * (m - p)) / (n - w.norm_squared()).max(1.0);
         if shared <= 0.0 {
             return plain();
         }
-        // M = Rᵀ K R with K = τ² Wᵀ W + σ_w² I, so N M⁻¹ N = Rᵀ K⁻¹ R.
-        let mut k = w.tr_mul(&w) * shared;
-        let tiny = 1e-12 * k.amax();
-        (0..k.nrows()).for_each(|i| k[(i, i)] += alone.max(tiny));
-        let Some(rows) = k.cholesky().and_then(|k| k.l().solve_lower_triangular(&r)) else {
-            return plain();
-        };
-        Ok((self.inverse(&rows), (shared + alone).sqrt(), m - p))
+        // With Lᵀ N L = 1 − Lᵀ P L.
+        let prior = &self.prior * &l;
+        let prior = prior.tr_mul(&prior);
+        let meat =
+            w.tr_mul(&w) * shared + DMatrix::identity(l.ncols(), l.ncols()) * alone + prior * (1.0 - alone);
+        Ok((&l * meat * l.transpose(), (shared + alone).sqrt(), m - p))
     }
 
     /// Computes covariance and σ where the numbers of a configuration have errors of any
     /// correlation.
     fn sandwich(&self, groups: &[&[usize]], n: usize) -> Result<(DMatrix<f64>, f64), Failure> {
         let p = self.x.len();
-        let bread = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
-        let Some(l) = bread.solve_upper_triangular(&DMatrix::identity(bread.nrows(), p)) else {
+        let Some(l) = self.half() else {
             return Ok((DMatrix::from_element(p, p, f64::INFINITY), f64::INFINITY));
         };
         let block = |_: usize, groups: &[&[usize]]| {
@@ -223,31 +214,31 @@ impl Solver<'_> {
             let row = l.tr_mul(&DVector::from_column_slice(row));
             meat.ger(1.0, &row, &row, 1.0);
         });
-        for (k, prior) in self.priors.iter().enumerate() {
-            if let Some(sigma) = prior {
-                let row = l.row(k).transpose() / *sigma;
-                meat.ger(1.0, &row, &row, 1.0);
-            }
-        }
+        let prior = &self.prior * &l;
+        meat += prior.tr_mul(&prior);
         Ok((&l * meat * l.transpose(), (squares / n.max(1.0)).sqrt()))
     }
 
-    /// Returns `(AᵀA + P)⁻¹` with the information `P` of the priors.
-    fn inverse(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
+    /// Returns L with `B = L Lᵀ`; none if that is singular.
+    fn half(&self) -> Option<DMatrix<f64>> {
         let p = self.x.len();
-        let mut triangle = Triangle::new(p);
-        a.transpose().column_iter().for_each(|row| triangle.push(row.as_slice(), 0.0, 1.0));
-        let problem = with_priors(triangle, &self.priors, self.x.as_slice());
-        let inverse = problem.a.rows(0, p).solve_upper_triangular(&DMatrix::identity(p, p));
-        inverse.map_or_else(
-            || DMatrix::from_element(p, p, f64::INFINITY),
-            |inverse| &inverse * inverse.transpose(),
-        )
+        let root = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
+        root.solve_upper_triangular(&DMatrix::identity(root.nrows(), p))
     }
 
-    /// Returns `(JᵀJ/σ² + P)⁻¹` with the information `P` of the priors.
+    /// Returns the number of unknowns that the data determine: `tr B N`.
+    pub(super) fn effective(&self) -> f64 {
+        let by_prior = self.half().map_or(0.0, |l| (&self.prior * l).norm_squared());
+        self.x.len() as f64 - by_prior
+    }
+
+    /// Returns `B (σ² N + P) B`.
     pub(super) fn covariance(&self, sigma: f64) -> DMatrix<f64> {
-        self.inverse(&(self.data_alone.columns(0, self.x.len()) / sigma.max(1e-300)))
+        let p = self.x.len();
+        let Some(l) = self.half() else { return DMatrix::from_element(p, p, f64::INFINITY) };
+        let prior = &self.prior * &l;
+        let meat = prior.tr_mul(&prior) * (1.0 - sigma * sigma);
+        &l * (meat + DMatrix::identity(l.ncols(), l.ncols()) * (sigma * sigma)) * l.transpose()
     }
 }
 

@@ -1,11 +1,13 @@
 //! Nonlinear least squares on the exact model.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::clustered::{Independent, Known};
+use super::identifiable::Columns;
+use super::prior::Basis;
 use super::solver::Solver;
 use super::{
-    Configurations, Failure, Identifiable, Loss, Model, Observation, Options, Unknown, identifiable, knowable,
+    Configurations, Failure, Identifiable, Loss, Model, Observation, Options, Unknown, identifiable,
 };
 
 /// Observations with a smaller weight count as rejected.
@@ -20,8 +22,14 @@ pub struct Fit {
     pub x: Vec<f64>,
     /// Covariance of the kept unknowns, in the order of `identifiable.kept`.
     pub covariance: DMatrix<f64>,
-    /// Priors of the fit.
+    /// Prior standard deviations of all unknowns.
     pub priors: Vec<Option<f64>>,
+    /// Rows W of the prior of the kept unknowns x: `W x` has independent components of variance 1.
+    /// No rows without a prior.
+    pub prior: DMatrix<f64>,
+    /// Scale that the data chose for the priors of [some unknowns](Options::scaled), which have it;
+    /// 1 if there are none.
+    pub scale: f64,
     /// Ratio of the residuals to the stated uncertainty of the instrument; 1 without degrees of
     /// freedom.
     pub sigma: f64,
@@ -55,14 +63,34 @@ impl Fit {
         all
     }
 
-    /// Returns the indices of kept unknowns whose priors carry more information than the data.
+    /// Returns the indices of kept unknowns whose prior carries more information than the data.
     pub fn weakly_determined(&self) -> Vec<usize> {
-        let deviations = self.standard_deviations();
-        let hardly = |k: &usize| match (deviations[*k], self.priors.get(*k).copied().flatten()) {
-            (Some(found), Some(prior)) => found > 0.5 * prior,
-            _ => false,
+        let count = self.identifiable.kept.len();
+        let root = self.prior.solve_lower_triangular(&DMatrix::identity(self.prior.nrows(), count));
+        let hardly = |i: &usize| {
+            root.as_ref().is_some_and(|root| 4.0 * self.covariance[(*i, *i)] > root.row(*i).norm_squared())
         };
-        self.identifiable.kept.iter().copied().filter(hardly).collect()
+        (0..count).filter(hardly).map(|i| self.identifiable.kept[i]).collect()
+    }
+
+    /// Returns the estimate of a single unknown with a prior, and its standard deviation: of those
+    /// that act alike each has its share.
+    ///
+    /// With the column r of R and the standard deviation σ of the unknown, and `P = WᵀW`, it is
+    /// `σ² rᵀ P x`, with the variance `σ² − σ⁴ rᵀ P r + σ⁴ rᵀ P C P r`.
+    pub fn single(&self, unknown: usize) -> Option<(f64, f64)> {
+        let square = self.priors.get(unknown).copied().flatten()?.powi(2);
+        let r = DVector::from_vec(self.identifiable.kept_coordinates(unknown));
+        let x = DVector::from_iterator(r.len(), self.identifiable.kept.iter().map(|k| self.x[*k]));
+        let share = self.prior.tr_mul(&(&self.prior * &r)) * square;
+        let variance = square * (1.0 - share.dot(&r)) + share.dot(&(&self.covariance * &share));
+        Some((share.dot(&x), variance.max(0.0).sqrt()))
+    }
+
+    /// Returns the model with the kept unknowns alone, and their values.
+    pub fn of_kept<'m>(&self, model: &Model<'m>) -> (Model<'m>, Vec<f64>) {
+        let kept = || self.identifiable.kept.iter();
+        (model.with(kept().map(|k| model.unknowns[*k]).collect()), kept().map(|k| self.x[*k]).collect())
     }
 
     /// Returns the pairs of kept unknowns with an absolute correlation above `least`, strongest
@@ -118,25 +146,40 @@ fn mixed(data: &[Observation]) -> Vec<Observation> {
 
 /// Fits the unknowns of a model to measurements.
 ///
-/// Unknowns that are not identifiable are fixed at zero; see [`identifiable()`]. Known sources do
-/// not take part in that decision: an error that varies over the workspace makes equivalent
-/// unknowns differ by a second-order amount that real data do not resolve.
+/// With priors it is the maximum a posteriori estimate of all unknowns; errors that act as others
+/// in every configuration are part of these. Without, unknowns that are not identifiable are fixed
+/// at zero; see [`identifiable()`]. Known sources do not take part in that decision: an error that
+/// varies over the workspace makes equivalent unknowns differ by a second-order amount that real
+/// data do not resolve.
 pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit, Failure> {
     let mut at = options.at.clone();
     at.resize(model.unknowns.len(), 0.0);
     let plain = model.without_known_sources();
-    let identifiable = |data: &[Observation]| match options.expected.is_empty() {
-        true => identifiable(&plain, data, &at),
-        false => knowable(&plain, data, &at, &options.expected, options.noise),
+    let more = |rows: &[Observation]| identifiable(&plain, rows, &at).map_or(0, |found| found.rank);
+    let seen = Columns::of_rows(&plain, data, &at)?.with_expected(&options.priors);
+    let found = seen.knowable(&plain, data);
+    let rank = found.rank + found.weak.len();
+    let basis = match options.priors.is_empty() {
+        true => None,
+        false => Some(Basis::new(&plain, data, &at, &seen, &options.priors)?),
     };
-    let rank = |found: &Identifiable| found.rank + found.weak.len();
-    let more = |rows: &[Observation]| identifiable(rows).map_or(0, |found| rank(&found));
-    let identifiable = identifiable(data)?;
+    let (identifiable, prior) = match &basis {
+        None => (found, DMatrix::zeros(0, rank)),
+        Some(basis) => {
+            let Basis { kept, redundant, .. } = basis;
+            let identifiable = Identifiable {
+                kept: kept.clone(),
+                redundant: redundant.clone(),
+                inexact: Vec::new(),
+                ..found
+            };
+            (identifiable, basis.rows(&[], 1.0))
+        }
+    };
     let numbers = model.count(data.iter());
     // Repeated visits add no information about the machine; weakly determined unknowns count as
     // fitted parameters.
     let (independent, configurations) = Configurations::independent(data);
-    let rank = rank(&identifiable);
     // As many numbers as unknowns are enough if other rows of these joints have no more unknowns.
     let is_of_machine = |unknown: &Unknown| matches!(unknown, Unknown::Error(..));
     let is_exact = model.stated_freedom > 0.0
@@ -152,7 +195,7 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
         act_as.iter().for_each(|(j, factor)| start[*j] += factor * at[*k]);
     }
     let start = identifiable.kept.iter().map(|k| start[*k]).collect();
-    let mut solver = Solver::new(&kept, data, options, &identifiable.kept, start);
+    let mut solver = Solver::new(&kept, data, options, &identifiable.kept, (start, prior));
     let known = match options.loss {
         Loss::Squares => None,
         loss => solver.reject_outliers(loss, options.steps)?,
@@ -160,17 +203,29 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     if !solver.steps_at_most(options.steps)? {
         return Err(Failure::NotConverged { steps: solver.steps });
     }
+    let mut scale = 1.0;
+    if let Some(basis) = basis.filter(|_| !options.scaled.is_empty()) {
+        scale = solver.scale_of_prior(&basis, &options.scaled);
+        solver.set_prior(basis.rows(&options.scaled, scale));
+        if !solver.steps_at_most(options.steps)? {
+            return Err(Failure::NotConverged { steps: solver.steps });
+        }
+    }
     let cost = solver.cost_of_data();
     let known = known.map_or_else(|| solver.known(), Ok)?;
     let Known { covariance, sigma, freedom, independent, configurations } = known;
     let mut x = vec![0.0; model.unknowns.len()];
     identifiable.kept.iter().zip(solver.x.iter()).for_each(|(k, value)| x[*k] = *value);
-    let (priors, weights, steps) = (options.priors.clone(), solver.weights, solver.steps);
+    let mut priors = options.priors.clone();
+    options.scaled.iter().for_each(|k| priors[*k] = priors[*k].map(|sigma| sigma * scale));
+    let (weights, steps, prior) = (solver.weights, solver.steps, solver.prior);
     Ok(Fit {
         identifiable,
         x,
         covariance,
         priors,
+        prior,
+        scale,
         sigma,
         freedom,
         coverage_freedom: freedom + model.stated_freedom,

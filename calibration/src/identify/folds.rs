@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::fit::REJECTED;
 use super::linearize::{push_distances, with_priors};
@@ -131,13 +131,10 @@ pub fn cross_validate(
     fit: &Fit,
     folds: &Folds,
 ) -> Result<Distances, Failure> {
-    let kept = model.with(fit.identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
-    let x: Vec<f64> = fit.identifiable.kept.iter().map(|k| fit.x[*k]).collect();
-    let priors: Vec<Option<f64>> =
-        fit.identifiable.kept.iter().map(|k| fit.priors.get(*k).copied().flatten()).collect();
+    let (kept, x) = fit.of_kept(model);
     let parts = triangles(&kept, data, &x, &fit.weights, folds)?;
     let solve = |left_out: usize| {
-        let step = others(&kept, &parts, left_out, &priors, &x)
+        let step = others(&kept, &parts, left_out, &fit.prior, &x)
             .solve(0.0)
             .unwrap_or_else(|| DVector::zeros(x.len()));
         x.iter().zip(step.iter()).map(|(x, step)| x + step).collect::<Vec<f64>>()
@@ -149,10 +146,10 @@ pub fn cross_validate(
 }
 
 /// Returns the triangle of all folds but one, with the known distances, which belong to none.
-fn others(model: &Model, parts: &[Triangle], left_out: usize, priors: &[Option<f64>], x: &[f64]) -> Problem {
+fn others(model: &Model, parts: &[Triangle], left_out: usize, prior: &DMatrix<f64>, x: &[f64]) -> Problem {
     let rest = parts.iter().enumerate().filter(|(fold, _)| *fold != left_out);
     let mut all = Triangle::new(x.len());
     rest.for_each(|(_, part)| all.merge(part.clone()));
     push_distances(model, x, &mut all);
-    with_priors(all, priors, x)
+    with_priors(all, prior, x)
 }

@@ -87,40 +87,23 @@ pub struct Weak {
 /// error is attributed to the machine only if neither the placement of the machine nor the mounting
 /// on its tool explains it.
 pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Identifiable, Failure> {
-    knowable(model, data, x, &[], 1.0)
+    knowable(model, data, x, &[])
 }
 
 /// Finds the unknowns that these data determine better than their expected sizes.
 ///
-/// `expected` has the size of each unknown, as from [`Model::expected`]; `noise` multiplies the
-/// stated uncertainty. Plans and fits use this criterion.
+/// `expected` has the size of each unknown, as from [`Model::priors`]. Plans use this criterion.
 pub fn knowable(
     model: &Model,
     data: &[Observation],
     x: &[f64],
     expected: &[Option<f64>],
-    noise: f64,
 ) -> Result<Identifiable, Failure> {
-    let triangle = linearize(model, data, x, None)?;
-    let p = model.unknowns.len();
-    let columns = Columns::new(&triangle.finish().columns(0, p).into_owned(), expected, noise);
-    let columns = columns.ok_or_else(|| Failure::Observation {
-        line: data.first().map_or(0, |first| first.line),
-        error: Error::NotFinite { quantity: Quantity::Jacobian, index: 0 },
-    })?;
-    let rows = data.iter().map(Observation::count).sum();
-    let all = by_preference(model);
-    let is_placement = |k: &usize| model.unknowns[*k].is_placement();
-    let (first, then): (Vec<usize>, Vec<usize>) = all.iter().copied().partition(is_placement);
-    let is_error = |k: &usize| matches!(model.unknowns[*k], Unknown::Base(..) | Unknown::Error(..));
-    let errors: Vec<usize> = all.into_iter().filter(is_error).collect();
-    let kept = columns.kept(&[&first, &then]);
-    let errors = columns.kept(&[&errors]).len();
-    Ok(columns.identifiable(kept, errors, rows))
+    Ok(Columns::of_rows(model, data, x)?.with_expected(expected).knowable(model, data))
 }
 
 /// Returns the unknowns in order of preference.
-fn by_preference(model: &Model) -> Vec<usize> {
+pub(super) fn by_preference(model: &Model) -> Vec<usize> {
     use super::Unknown::{Base, Error, Fixture, Intrinsic, Magnitude, Target, Tool, Zero};
     let frames = model.manipulator.description().frames.len();
     let mut order: Vec<usize> = (0..model.unknowns.len()).collect();
@@ -144,11 +127,11 @@ fn by_preference(model: &Model) -> Vec<usize> {
 }
 
 /// Derivatives, as columns of unit length.
-struct Columns {
+pub(super) struct Columns {
     unit: DMatrix<f64>,
-    lengths: Vec<f64>,
-    /// Length of each column times the expected size of its unknown, divided by the noise; infinite
-    /// without an expectation.
+    pub(super) lengths: Vec<f64>,
+    /// Length of each column times the expected size of its unknown; infinite without an
+    /// expectation.
     worth: Vec<f64>,
     expected: Vec<Option<f64>>,
     singular_values: Vec<f64>,
@@ -157,24 +140,44 @@ struct Columns {
 }
 
 impl Columns {
-    /// Returns none if a derivative is not finite in units of the noise.
-    fn new(triangle: &DMatrix<f64>, expected: &[Option<f64>], noise: f64) -> Option<Self> {
-        let p = triangle.ncols();
-        let mut unit = triangle.clone();
+    /// Computes the derivatives of rows at `x`.
+    pub(super) fn of_rows(model: &Model, data: &[Observation], x: &[f64]) -> Result<Self, Failure> {
+        let p = model.unknowns.len();
+        let mut unit = linearize(model, data, x, None)?.finish().columns(0, p).into_owned();
         let lengths: Vec<f64> = unit.column_iter().map(|column| column.norm()).collect();
         let largest = lengths.iter().copied().fold(0.0, f64::max);
         // Columns of rounding errors count as zero.
         for (mut column, length) in unit.column_iter_mut().zip(&lengths) {
             column.scale_mut(if *length > largest * 1e-14 { 1.0 / length } else { 0.0 });
         }
-        let singular_values = singular_values(unit.clone())?;
+        let singular_values = singular_values(unit.clone()).ok_or_else(|| Failure::Observation {
+            line: data.first().map_or(0, |first| first.line),
+            error: Error::NotFinite { quantity: Quantity::Jacobian, index: 0 },
+        })?;
         let threshold = singular_values.first().map_or(0.0, |first| first * THRESHOLD);
         let exact = singular_values.iter().filter(|value| **value > threshold).count();
-        let expected: Vec<Option<f64>> = (0..p).map(|k| expected.get(k).copied().flatten()).collect();
-        let worth = lengths.iter().zip(&expected);
-        let worth = worth.map(|(length, expected)| expected.map_or(f64::INFINITY, |e| length * e / noise));
-        let worth = worth.collect();
-        Some(Self { unit, lengths, worth, expected, singular_values, exact })
+        let (worth, expected) = (vec![f64::INFINITY; p], vec![None; p]);
+        Ok(Self { unit, lengths, worth, expected, singular_values, exact })
+    }
+
+    /// Sets the expected size of each unknown.
+    pub(super) fn with_expected(mut self, expected: &[Option<f64>]) -> Self {
+        self.expected.iter_mut().zip(expected).for_each(|(own, expected)| *own = *expected);
+        let worth = self.lengths.iter().zip(&self.expected);
+        self.worth = worth.map(|(length, size)| size.map_or(f64::INFINITY, |size| length * size)).collect();
+        self
+    }
+
+    /// Finds the unknowns that the rows determine.
+    pub(super) fn knowable(&self, model: &Model, data: &[Observation]) -> Identifiable {
+        let all = by_preference(model);
+        let is_placement = |k: &usize| model.unknowns[*k].is_placement();
+        let (first, then): (Vec<usize>, Vec<usize>) = all.iter().copied().partition(is_placement);
+        let is_error = |k: &usize| matches!(model.unknowns[*k], Unknown::Base(..) | Unknown::Error(..));
+        let errors: Vec<usize> = all.into_iter().filter(is_error).collect();
+        let kept = self.kept(&[&first, &then]);
+        let errors = self.kept(&[&errors]).len();
+        self.identifiable(kept, errors, data.iter().map(Observation::count).sum())
     }
 
     /// Returns the sorted columns that represent all others, from groups in order of falling
@@ -183,7 +186,7 @@ impl Columns {
     /// Gram-Schmidt orthogonalization runs in order of preference and postpones columns with a
     /// small residual to a later pass. Then weakly determined columns are removed, the weakest
     /// first, because several nearly parallel columns can each have passed.
-    fn kept(&self, groups: &[&[usize]]) -> Vec<usize> {
+    pub(super) fn kept(&self, groups: &[&[usize]]) -> Vec<usize> {
         let mut rest = self.unit.clone();
         let mut kept: Vec<usize> = Vec::new();
         for group in groups {
@@ -225,15 +228,44 @@ impl Columns {
         })
     }
 
-    fn identifiable(self, kept: Vec<usize>, errors: usize, rows: usize) -> Identifiable {
-        let basis = self.unit.select_columns(&kept);
-        let all = 0..self.unit.ncols();
-        let redundant: Vec<(usize, Vec<(usize, f64)>)> =
-            all.filter(|k| !kept.contains(k)).map(|k| (k, self.combination(&basis, k, &kept))).collect();
+    /// Returns the columns that are not kept, each with its combination of kept ones.
+    pub(super) fn redundant(&self, kept: &[usize]) -> Vec<(usize, Vec<(usize, f64)>)> {
+        let basis = self.unit.select_columns(kept);
+        let rest = (0..self.unit.ncols()).filter(|k| !kept.contains(k));
+        rest.map(|k| (k, self.combination(&basis, k, kept))).collect()
+    }
+
+    /// Returns what remains of column k beside a combination of columns, as factors of other ones.
+    pub(super) fn rest_as(&self, k: usize, parts: &[(usize, f64)], others: &[usize]) -> Vec<(usize, f64)> {
+        let column = |k: usize, factor: f64| self.unit.column(k) * (self.lengths[k] * factor);
+        let rest = parts.iter().fold(column(k, 1.0), |rest, (j, factor)| rest - column(*j, *factor));
+        if others.is_empty() {
+            return Vec::new();
+        }
+        let solved = self.unit.select_columns(others).svd(true, true).solve(&rest, INDISTINGUISHABLE);
+        let Ok(solved) = solved else { return Vec::new() };
+        let factors = others.iter().zip(solved.iter()).map(|(j, share)| (*j, share / self.lengths[*j]));
+        let least = INDISTINGUISHABLE * self.lengths[k];
+        factors.filter(|(j, factor)| factor.abs() * self.lengths[*j] > least).collect()
+    }
+
+    /// Returns the columns that are independent of some others and of each other.
+    pub(super) fn beside(&self, others: &[usize], columns: impl Iterator<Item = usize>) -> Vec<usize> {
+        let mut rest = self.unit.clone();
+        let mut take = |k: &usize| {
+            let is_new = rest.column(*k).norm() > INDISTINGUISHABLE;
+            is_new.then(|| take_out(&mut rest, *k)).is_some()
+        };
+        others.iter().for_each(|k| _ = take(k));
+        columns.filter(|k| !others.contains(k) && take(k)).collect()
+    }
+
+    fn identifiable(&self, kept: Vec<usize>, errors: usize, rows: usize) -> Identifiable {
         let gap = match (kept.len().checked_sub(1), self.singular_values.get(kept.len())) {
             (Some(last), Some(next)) if *next > 0.0 => self.singular_values[last] / next,
             _ => f64::INFINITY,
         };
+        let basis = self.unit.select_columns(&kept);
         let observability =
             Observability::from_singular_values(&singular_values(basis).unwrap_or_default(), rows);
         let mut rest = self.unit.clone();
@@ -243,9 +275,9 @@ impl Columns {
             errors,
             inexact: inexact(&rest).collect(),
             weak: self.weak(kept.len(), rest),
+            redundant: self.redundant(&kept),
             kept,
-            redundant,
-            singular_values: self.singular_values,
+            singular_values: self.singular_values.clone(),
             observability,
             gap,
         }

@@ -10,7 +10,8 @@
 //!
 //! so that, on the fold, the right side becomes the residual under the fit of the others. For a
 //! group g that is not yet included, the same products give `N = ⟨g, g⟩` and `b = ⟨g, r⟩`, both
-//! reduced by the included columns, and its residual is `r − g N⁻¹ b`.
+//! reduced by the included columns, and its residual is `r − g N⁻¹ b`. Rows of known distances and of
+//! the prior belong to no fold.
 
 use std::ops::Range;
 
@@ -29,7 +30,8 @@ const NEW: f64 = 1e-9;
 
 /// Columns and their residuals, fold by fold.
 pub(super) struct LeftOut {
-    /// Columns of unit length, the right side last; rows are sorted by fold.
+    /// Columns of unit length, the right side last; rows are sorted by fold, and those of no fold are
+    /// last.
     columns: DMatrix<f64>,
     /// Columns reduced, on each fold, by the fit of the other folds.
     rest: DMatrix<f64>,
@@ -71,12 +73,13 @@ impl LeftOut {
             terms.extend(group);
         }
         let rows = chosen_rows(data, fit, folds, NUMBERS / (terms.len() + 1));
-        let numbers = rows.iter().flatten().map(|i| data[*i].count()).sum();
-        let mut columns = DMatrix::zeros(numbers, terms.len() + 1);
+        let numbers: usize = rows.iter().flatten().map(|i| data[*i].count()).sum();
+        let always = model.known_distances.len() + fit.prior.nrows();
+        let mut columns = DMatrix::zeros(numbers + always, terms.len() + 1);
         let (mut at, mut ranges, mut configuration) = (0, Vec::new(), Vec::new());
         let mut x = fit.x.clone();
         x.resize(model.unknowns.len(), 0.0);
-        let mut model = model.at(&x);
+        let mut at_fit = model.at(&x);
         for fold in &rows {
             let first = at;
             for &i in fold {
@@ -84,7 +87,7 @@ impl LeftOut {
                 let factors = (candidates.factors)(&data[i]);
                 // f(here) ∂g(here) − f(there) ∂g(there), for a number that refers to another row.
                 let there = data[i].from().map(candidates.factors);
-                model.linear_by_row(&data[i], |residual, derivatives, of_there| {
+                at_fit.linear_by_row(&data[i], |residual, derivatives, of_there| {
                     for (j, ModelTerm { unknown, factor }) in terms.iter().enumerate() {
                         let here = factor.map_or(1.0, |factor| factors[factor]);
                         let mut derivative = derivatives[*unknown] * here;
@@ -100,6 +103,17 @@ impl LeftOut {
             }
             ranges.push(first..at);
         }
+        model.distance_rows(&x, |residual, derivatives| {
+            for (j, ModelTerm { unknown, factor }) in terms.iter().enumerate() {
+                columns[(at, j)] = if factor.is_none() { derivatives[*unknown] } else { 0.0 };
+            }
+            columns[(at, terms.len())] = -residual;
+            at += 1;
+        });
+        let (prior, (_, kept)) = (&fit.prior, fit.of_kept(model));
+        columns.view_mut((at, 0), prior.shape()).copy_from(prior);
+        let right = -(prior * DVector::from_vec(kept));
+        columns.view_mut((at, terms.len()), (prior.nrows(), 1)).copy_from(&right);
         let mut known = configuration.clone();
         known.sort_unstable();
         known.dedup();
@@ -137,7 +151,8 @@ impl LeftOut {
             Fold { normal: normal.collect(), z: Vec::new(), rows }
         };
         let folds = ranges.into_iter().map(fold).collect();
-        let (rest, free) = (columns.clone(), vec![true; groups.len()]);
+        let (mut rest, free) = (columns.clone(), vec![true; groups.len()]);
+        rest.rows_range_mut(configuration.len()..).fill(0.0);
         Self { columns, rest, folds, basis: Vec::new(), groups, free, configuration, configurations, size }
     }
 
@@ -151,7 +166,8 @@ impl LeftOut {
         let width = self.columns.ncols();
         let products: Vec<DVector<f64>> =
             self.folds.iter().map(|fold| self.products(&fold.rows, k)).collect();
-        let all = products.iter().fold(DVector::zeros(width), |all, own| all + own);
+        let always = self.products(&(self.numbers()..self.columns.nrows()), k);
+        let all = products.iter().fold(always, |all, own| all + own);
         for (fold, own) in self.folds.iter_mut().zip(products) {
             let mut z = &all - own;
             fold.z.iter().for_each(|before| z.axpy(-before[k], before, 1.0));
@@ -240,8 +256,10 @@ impl LeftOut {
         let zero = DMatrix::zeros(self.configurations, columns.len());
         let mut scores = Scores { before: zero.clone(), after: zero };
         for (place, k) in columns.clone().enumerate() {
-            for (i, value) in self.beside_included(k).iter().enumerate() {
-                let at = (self.configuration[i], place);
+            for (i, (value, configuration)) in
+                self.beside_included(k).iter().zip(&self.configuration).enumerate()
+            {
+                let at = (*configuration, place);
                 scores.before[at] += value * before[i];
                 scores.after[at] += value * after[i];
             }
@@ -252,13 +270,14 @@ impl LeftOut {
     /// Returns the number of configurations less the degrees of freedom used by the included
     /// columns.
     pub(super) fn freedom(&self) -> f64 {
-        let each = self.columns.nrows() as f64 / self.configurations.max(1) as f64;
-        self.configurations as f64 - self.basis.len() as f64 / each.max(1.0)
+        let each = self.numbers() as f64 / self.configurations.max(1) as f64;
+        let used = self.basis.iter().map(|one| one.rows(0, self.numbers()).norm_squared()).sum::<f64>();
+        self.configurations as f64 - used / each.max(1.0)
     }
 
     /// Returns the number of measured numbers.
     pub(super) fn numbers(&self) -> usize {
-        self.columns.nrows()
+        self.configuration.len()
     }
 }
 

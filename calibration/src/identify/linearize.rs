@@ -1,5 +1,7 @@
 //! Linearization of the residuals of all observations, with priors.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::blocks::by_blocks;
 use super::evaluated_model::EvaluatedModel;
 use super::triangle::{Problem, Triangle};
@@ -43,14 +45,10 @@ pub(super) fn push_distances(model: &Model, x: &[f64], triangle: &mut Triangle) 
     model.distance_rows(x, |residual, row| triangle.push(row, -residual, 1.0));
 }
 
-/// Appends a row `x/σ` for each prior.
-pub(super) fn with_priors(mut triangle: Triangle, priors: &[Option<f64>], x: &[f64]) -> Problem {
-    let p = x.len();
-    for (k, prior) in priors.iter().enumerate() {
-        if let Some(sigma) = prior {
-            let row: Vec<f64> = (0..p).map(|j| f64::from(u8::from(j == k))).collect();
-            triangle.push(&row, -x[k], 1.0 / sigma);
-        }
+/// Appends the rows `W x` of the prior.
+pub(super) fn with_priors(mut triangle: Triangle, prior: &DMatrix<f64>, x: &[f64]) -> Problem {
+    for (row, value) in prior.transpose().column_iter().zip((prior * DVector::from_column_slice(x)).iter()) {
+        triangle.push(row.as_slice(), -value, 1.0);
     }
-    Problem::from_triangle(&triangle.finish(), &(0..p).collect::<Vec<_>>())
+    Problem::from_triangle(&triangle.finish(), &(0..x.len()).collect::<Vec<_>>())
 }

@@ -94,6 +94,7 @@ mod model;
 mod observation;
 mod options;
 mod outliers;
+mod prior;
 mod profile;
 mod registration;
 mod residuals;

@@ -19,6 +19,9 @@ use abbe_core::{Class, Component, Manipulator, Pose};
 /// Prior standard deviation of the tilts of a direction, in rad.
 const DIRECTION: f64 = 0.02;
 
+/// Prior standard deviation of stated places, in lengths of the arm and in rad.
+const STATED_PLACE: f64 = 0.01;
+
 /// Degrees of freedom of a stated uncertainty: it is trusted to about a factor of 2.
 const STATED: f64 = 2.0;
 
@@ -206,44 +209,21 @@ impl<'a> Model<'a> {
     /// some `share` of a radian.
     ///
     /// They are standard deviations about zero for [`Options::priors`](super::Options::priors).
-    /// Directions of fixtures have about one degree, intrinsic parameters what lenses have; base,
-    /// tool and magnitudes have none. They regularize weakly determined unknowns; other unknowns
-    /// hardly depend on them.
+    /// Places of base and tool are known to a hundredth of the length of the arm and of a radian,
+    /// those of fixtures to that length, their directions to about one degree, and intrinsic
+    /// parameters to what lenses have; zeros and magnitudes have none.
     pub fn priors(&self, share: f64) -> Result<Vec<Option<f64>>, Failure> {
         let length = self.arm_length()?;
         let prior = |unknown: &Unknown| match unknown {
             Unknown::Error(_, component) if component.is_rotation() => Some(share),
             Unknown::Error(..) => Some(share * length),
-            Unknown::Fixture(fixture, _) => self.direction_uncertainty(*fixture),
+            Unknown::Fixture(fixture, _) => self.direction_uncertainty(*fixture).or(Some(length)),
             Unknown::Intrinsic(parameter) => self.camera.map(|camera| camera.expected(*parameter)),
-            _ => None,
+            unknown @ (Unknown::Base(..) | Unknown::Tool(..)) if unknown.is_rotation() => Some(STATED_PLACE),
+            Unknown::Base(..) | Unknown::Tool(..) | Unknown::Target(..) => Some(STATED_PLACE * length),
+            Unknown::Zero(_) | Unknown::Magnitude(_) => None,
         };
         Ok(self.unknowns.iter().map(prior).collect())
-    }
-
-    /// Returns the expected size of each unknown, against which [`knowable`](super::knowable())
-    /// compares the data.
-    ///
-    /// It is the prior where there is one. Without a prior, an error of a frame can be as large as
-    /// the machine, errors of base and tool a hundredth of that, and the places of instruments a
-    /// tenth. Magnitudes and zeros have no expectation.
-    pub fn expected(&self, priors: &[Option<f64>]) -> Result<Vec<Option<f64>>, Failure> {
-        let length = self.arm_length()?;
-        let expected = |(k, unknown): (usize, &Unknown)| {
-            let of = |share: f64, rotation: bool| Some(if rotation { share } else { share * length });
-            priors.get(k).copied().flatten().or(match unknown {
-                Unknown::Error(_, component) => of(1.0, component.is_rotation()),
-                Unknown::Base(_, component) | Unknown::Tool(_, component) => {
-                    of(0.01, component.is_rotation())
-                }
-                Unknown::Target(..) => of(0.01, false),
-                Unknown::Fixture(fixture, _) => {
-                    self.direction_uncertainty(*fixture).or_else(|| of(0.1, false))
-                }
-                Unknown::Magnitude(_) | Unknown::Zero(_) | Unknown::Intrinsic(_) => None,
-            })
-        };
-        Ok(self.unknowns.iter().enumerate().map(expected).collect())
     }
 
     /// Returns the prior of the tilts of a fixture that is a direction.

@@ -12,15 +12,14 @@ pub struct Options {
     pub at: Vec<f64>,
     /// Loss function of the residuals.
     pub loss: Loss,
-    /// Prior standard deviations about zero, by index of the unknown; none without a prior.
-    pub priors: Vec<Option<f64>>,
-    /// Expected sizes of the unknowns, see [`Model::expected`](super::Model::expected).
+    /// Prior standard deviations about zero, by index of the unknown; flat where there is none, see
+    /// [`Model::priors`](super::Model::priors).
     ///
-    /// Unknowns that the data determine worse than that are fixed at zero. If empty, the fit
-    /// includes every direction with nonzero information.
-    pub expected: Vec<Option<f64>>,
-    /// Factor of the stated uncertainty in decisions on identifiability.
-    pub noise: f64,
+    /// With priors, all unknowns are fitted. If empty, those that the data cannot distinguish from
+    /// others are fixed at zero.
+    pub priors: Vec<Option<f64>>,
+    /// Indices of unknowns whose priors are known up to a common factor, which the data choose.
+    pub scaled: Vec<usize>,
     /// Bounds, by index of the unknown.
     pub bounds: Vec<Option<[f64; 2]>>,
     /// Largest number of iterations.
@@ -33,8 +32,7 @@ impl Default for Options {
             at: Vec::new(),
             loss: Loss::Squares,
             priors: Vec::new(),
-            expected: Vec::new(),
-            noise: 1.0,
+            scaled: Vec::new(),
             bounds: Vec::new(),
             steps: 100,
         }

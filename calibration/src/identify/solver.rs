@@ -13,7 +13,8 @@ use super::{Failure, Loss, Model, Observation, Options};
 pub(super) struct Solver<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) data: &'a [Observation],
-    pub(super) priors: Vec<Option<f64>>,
+    /// Rows of the prior.
+    pub(super) prior: DMatrix<f64>,
     bounds: Vec<Option<[f64; 2]>>,
     pub(super) x: DVector<f64>,
     pub(super) weights: Vec<f64>,
@@ -32,13 +33,13 @@ impl<'a> Solver<'a> {
         data: &'a [Observation],
         options: &Options,
         kept: &[usize],
-        start: Vec<f64>,
+        (start, prior): (Vec<f64>, DMatrix<f64>),
     ) -> Self {
         let p = model.unknowns.len();
         Self {
             model,
             data,
-            priors: kept.iter().map(|k| options.priors.get(*k).copied().flatten()).collect(),
+            prior,
             bounds: kept.iter().map(|k| options.bounds.get(*k).copied().flatten()).collect(),
             x: DVector::from_vec(start),
             weights: vec![1.0; data.len()],
@@ -62,7 +63,7 @@ impl<'a> Solver<'a> {
     fn linearize(&self, x: &DVector<f64>) -> Result<(DMatrix<f64>, Problem, f64), Failure> {
         let triangle = linearize(self.model, self.data, x.as_slice(), Some(&self.weights))?;
         let data_alone = triangle.clone().finish();
-        let problem = with_priors(triangle, &self.priors, x.as_slice());
+        let problem = with_priors(triangle, &self.prior, x.as_slice());
         let cost = problem.b.norm_squared();
         Ok((data_alone, problem, cost))
     }
@@ -72,8 +73,22 @@ impl<'a> Solver<'a> {
     }
 
     pub(super) fn cost_of_priors(&self, x: &DVector<f64>) -> f64 {
-        let priors = self.priors.iter().zip(x.iter());
-        priors.filter_map(|(prior, x)| Some((x / (*prior)?).powi(2))).sum()
+        (&self.prior * x).norm_squared()
+    }
+
+    /// Replaces the rows of the prior.
+    pub(super) fn set_prior(&mut self, prior: DMatrix<f64>) {
+        (self.prior, self.linearized) = (prior, false);
+    }
+
+    /// Estimates the standard deviation of a number, in units of its uncertainty, which is prior
+    /// information.
+    pub(super) fn noise(&self) -> f64 {
+        let (stated, used) = (self.model.stated_freedom, self.data.iter().zip(&self.weights));
+        let count = self.model.count(used.filter(|(_, weight)| **weight > 0.0).map(|(row, _)| row));
+        let freedom = (count as f64 - self.effective()).max(0.0);
+        let variance = (stated + self.cost_of_data()) / (stated + freedom);
+        if variance > 0.0 && variance.is_finite() { variance.sqrt() } else { 1.0 }
     }
 
     /// Linearizes at `x` with the current weights.

@@ -25,11 +25,9 @@ pub fn variance_components(
     data: &[Observation],
     fit: &Fit,
 ) -> Result<Vec<VarianceComponent>, Failure> {
-    let kept = model.with(fit.identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
-    let pick = |k: &usize| (fit.x[*k], fit.priors.get(*k).copied().flatten());
-    let (x, priors): (Vec<f64>, Vec<Option<f64>>) = fit.identifiable.kept.iter().map(pick).unzip();
+    let (kept, x) = fit.of_kept(model);
     let p = x.len();
-    let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &priors, &x);
+    let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &fit.prior, &x);
     let root = problem.a.rows(0, p.min(problem.a.nrows())).transpose();
     let count = model.observables.iter().map(|reading| reading.instrument + 1).max().unwrap_or(2);
     let mut components = vec![VarianceComponent::default(); count];

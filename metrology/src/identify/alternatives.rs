@@ -12,7 +12,7 @@ use abbe_spec::Spec;
 use nalgebra::{Cholesky, DVector, Dyn};
 use serde::Serialize;
 
-use super::chain_numbers::{ChainError, chain_errors, error_unit, frame_error};
+use super::chain_numbers::{ChainError, chain_errors, error_unit, frame_error, unknowns_of};
 use super::priors::Prior;
 use super::setup::Setup;
 
@@ -163,8 +163,7 @@ impl<'a> Explanations<'a> {
     fn direction(&self, one: &ChainError) -> Option<DVector<f64>> {
         let identifiable = &self.fit.identifiable;
         let mut sum = DVector::zeros(identifiable.kept.len());
-        for (component, error) in Component::ALL.into_iter().zip(one.errors).filter(|(_, e)| *e != 0.0) {
-            let unknown = Unknown::Error(one.frame, component);
+        for (unknown, error) in unknowns_of(&one.errors) {
             let k = self.model.unknowns.iter().position(|other| *other == unknown)?;
             sum += error * DVector::from_vec(identifiable.kept_coordinates(k));
         }
@@ -208,11 +207,14 @@ impl Beside<'_> {
     }
 }
 
-/// Returns whether two numbers are the same errors of the same frame up to a factor.
+/// Returns whether two numbers are the same errors of the same frames up to a factor.
 fn is_same(a: &ChainError, b: &ChainError) -> bool {
-    let dot = |x: &[f64; 6], y: &[f64; 6]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-    let product = dot(&a.errors, &b.errors).powi(2);
-    a.frame == b.frame && product >= (1.0 - 1e-9) * dot(&a.errors, &a.errors) * dot(&b.errors, &b.errors)
+    let dot = |x: &ChainError, y: &ChainError| {
+        let y: Vec<(Unknown, f64)> = unknowns_of(&y.errors).collect();
+        let factor = |one| y.iter().find(|(other, _)| *other == one).map_or(0.0, |(_, error)| *error);
+        unknowns_of(&x.errors).map(|(one, error)| error * factor(one)).sum::<f64>()
+    };
+    dot(a, b).powi(2) >= (1.0 - 1e-9) * dot(a, a) * dot(b, b)
 }
 
 /// Returns whether two directions are equal up to the sign.

@@ -6,14 +6,13 @@
 //! the number is a linear combination of constant errors and replaces one of them. This is a change
 //! of basis; the machine stays the same to first order.
 
-use abbe::Component;
 use abbe::identify::{Failure, Fit, Model, Observation, Unknown};
 use abbe_codegen::graph::Graph;
 use abbe_spec::{ChainNumber, Spec};
 use serde::Serialize;
 
 use super::alternatives::{Alternative, Explanations, Significant};
-use super::chain_numbers::{chain_numbers, constant_errors, error_unit, is_angle};
+use super::chain_numbers::{FrameErrors, chain_numbers, constant_errors, error_unit, is_angle, unknowns_of};
 use super::setup::Setup;
 use super::solve::Solved;
 use super::terms::{self, ErrorSite, Term};
@@ -56,12 +55,12 @@ pub struct JointError {
 }
 
 impl JointError {
-    /// Returns the name of the number, with its alternatives: `a of A5 or zero of q5`.
-    pub fn names(&self) -> String {
+    /// Returns the names of its alternatives: `zero of q5 or 2 more`.
+    pub fn others(&self) -> String {
         match &self.alternatives[..] {
-            [] => self.number.clone(),
-            [other] => format!("{} or {}", self.number, other.number),
-            [other, rest @ ..] => format!("{} or {} or {} more", self.number, other.number, rest.len()),
+            [] => String::new(),
+            [other] => other.number.clone(),
+            [other, rest @ ..] => format!("{} or {} more", other.number, rest.len()),
         }
     }
 }
@@ -72,8 +71,8 @@ pub(super) struct FoundNumber {
     /// Name: `zero of q2`.
     pub(super) name: String,
     pub(super) number: ChainNumber,
-    /// Index of the frame, and its six errors per unit of the number.
-    pub(super) twist: (usize, [f64; 6]),
+    /// Errors of frames per unit of the number.
+    pub(super) errors: FrameErrors,
     /// Index among the kept unknowns of the one it replaces.
     pub(super) index: usize,
     pub(super) value: f64,
@@ -88,9 +87,8 @@ impl AsJointErrors {
         let mut graph = Graph::with_tables(&spec.tables);
         let mut replaced = Vec::new();
         for (name, number) in chain_numbers(spec) {
-            let Some((frame, errors)) = constant_errors(&mut graph, spec, number) else { continue };
-            replaced
-                .extend(basis.exchange(frame, errors).map(|index| (index, name, number, (frame, errors))));
+            let Some(errors) = constant_errors(&mut graph, spec, number) else { continue };
+            replaced.extend(basis.exchange(&errors).map(|index| (index, name, number, errors)));
         }
         let taken = |index: &usize| replaced.iter().any(|(other, ..)| other == index);
         let others = (0..basis.forms.len()).filter(|index| !taken(index));
@@ -99,10 +97,10 @@ impl AsJointErrors {
             (index, value, standard_deviation)
         };
         let others = others.map(value).collect();
-        let number = |(index, name, number, twist)| {
+        let number = |(index, name, number, errors)| {
             let (value, standard_deviation) = basis.value(index);
             let correlation = basis.correlation(index);
-            FoundNumber { name, number, twist, index, value, standard_deviation, correlation }
+            FoundNumber { name, number, errors, index, value, standard_deviation, correlation }
         };
         let numbers = replaced.into_iter().map(number).collect();
         Self { numbers, others, forms: basis.forms }
@@ -185,10 +183,15 @@ impl AsJointErrors {
 }
 
 impl FoundNumber {
+    /// Returns the unit of its value.
+    pub(super) fn unit(&self, spec: &Spec) -> &'static str {
+        error_unit(spec, is_angle(spec, self.number))
+    }
+
     fn joint_error(&self, significant: &Significant, explanations: &Explanations) -> JointError {
-        let Self { name: number, number: of, index, value, standard_deviation, .. } = self.clone();
+        let Self { name: number, index, value, standard_deviation, .. } = self.clone();
         let in_place_of = explanations.model.name(explanations.kept(index));
-        let unit = error_unit(explanations.spec, is_angle(explanations.spec, of));
+        let unit = self.unit(explanations.spec);
         let alternatives = explanations.alternatives(&number, value, standard_deviation, significant);
         JointError { in_place_of, number, value, standard_deviation, unit, alternatives }
     }
@@ -230,10 +233,10 @@ impl<'a> ExchangedBasis<'a> {
 
     /// Replaces the kept unknown with the largest part in a number. Returns the index of that
     /// unknown, or none if no replacement is possible.
-    fn exchange(&mut self, frame: usize, errors: [f64; 6]) -> Option<usize> {
+    fn exchange(&mut self, errors: &FrameErrors) -> Option<usize> {
         let mut coordinates = vec![0.0; self.forms.len()];
-        for (component, error) in Component::ALL.into_iter().zip(errors).filter(|(_, error)| *error != 0.0) {
-            let unknown = self.model.unknowns.iter().position(|u| *u == Unknown::Error(frame, component))?;
+        for (unknown, error) in unknowns_of(errors) {
+            let unknown = self.model.unknowns.iter().position(|one| *one == unknown)?;
             if self.fit.identifiable.inexact.contains(&unknown) {
                 return None;
             }

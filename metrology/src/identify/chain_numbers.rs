@@ -1,7 +1,8 @@
 //! Numbers of the chain (joint zeros, structural parameters, Denavit-Hartenberg numbers) that are
-//! equivalent to constant errors of one frame.
+//! equivalent to constant errors of frames.
 
 use abbe::Component;
+use abbe::identify::Unknown;
 use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
 use abbe_codegen::graph::{Frame, Graph, Node};
 use abbe_spec::expr::{Dimension, Symbol};
@@ -12,24 +13,25 @@ use super::terms::ErrorSite;
 /// Number of configurations at which an error must be equal to count as constant.
 const SAMPLES: usize = 5;
 
-/// Number of the chain that is equivalent to constant errors of one frame.
+/// Six generalized errors of some frames, numbered from 0.
+pub(crate) type FrameErrors = Vec<(usize, [f64; 6])>;
+
+/// Number of the chain that is equivalent to constant errors of frames.
 pub(crate) struct ChainError {
     /// Name: `zero of q2`, `upper_arm`.
     pub(crate) name: String,
     /// Is true for an angle or a pure number, false for a length.
     pub(crate) is_angle: bool,
-    /// Index of the frame, from 0.
-    pub(crate) frame: usize,
-    /// Six generalized errors of that frame per unit of the number.
-    pub(crate) errors: [f64; 6],
+    /// Errors per unit of the number.
+    pub(crate) errors: FrameErrors,
 }
 
 /// Returns all such numbers, joints first.
 pub(crate) fn chain_errors(spec: &Spec) -> Vec<ChainError> {
     let mut graph = Graph::with_tables(&spec.tables);
     let all = chain_numbers(spec).into_iter().filter_map(|(name, number)| {
-        let (frame, errors) = constant_errors(&mut graph, spec, number)?;
-        Some(ChainError { name, is_angle: is_angle(spec, number), frame, errors })
+        let errors = constant_errors(&mut graph, spec, number)?;
+        Some(ChainError { name, is_angle: is_angle(spec, number), errors })
     });
     all.collect()
 }
@@ -39,8 +41,7 @@ pub(super) fn frame_error(spec: &Spec, frame: usize, component: Component) -> Ch
     ChainError {
         name: format!("{} of {}", component.name(), spec.frames[frame].name),
         is_angle: component.is_rotation(),
-        frame,
-        errors: Component::ALL.map(|other| f64::from(u8::from(other == component))),
+        errors: vec![(frame, Component::ALL.map(|other| f64::from(u8::from(other == component))))],
     }
 }
 
@@ -61,25 +62,23 @@ pub(super) fn chain_numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {
     joints.chain(parameters).chain(of_frames).collect()
 }
 
-/// Returns the frame and its six errors per unit of a number, if they are the same in all
-/// configurations.
-pub(super) fn constant_errors(
-    graph: &mut Graph,
-    spec: &Spec,
-    number: ChainNumber,
-) -> Option<(usize, [f64; 6])> {
+/// Returns the errors of frames per unit of a number, if they are the same in all configurations. The
+/// zero of a coupled joint is an error of each frame that it moves.
+pub(super) fn constant_errors(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Option<FrameErrors> {
     let twists = frame_twists(graph, spec, number);
-    let [FrameTwist { frame, velocity, rotation }] = twists[..] else { return None };
-    if let Some(errors) = constant(graph, spec, velocity, rotation) {
-        return Some((frame, errors));
+    let all = twists.iter().map(|one| Some((one.frame, constant(graph, spec, one.velocity, one.rotation)?)));
+    let is_one_chain = |errors: &FrameErrors| errors.len() == 1 || !errors.is_empty() && spec.is_serial();
+    if let Some(errors) = all.collect::<Option<FrameErrors>>().filter(is_one_chain) {
+        return Some(errors);
     }
+    let [FrameTwist { frame, velocity, rotation }] = twists[..] else { return None };
     // Ad(A): ω' = R ω, v' = R v + p × ω'. In a tree, other frames may hang on that one.
     let before = spec.frames[frame].parent.filter(|_| spec.is_serial())?;
     let Frame { axes, position } = transform(graph, &spec.frames[frame].factors);
     let turned = graph.turn(&axes, rotation);
     let (moved, swing) = (graph.turn(&axes, velocity), graph.cross(position, turned));
     let moved = graph.add_vectors(moved, swing);
-    Some((before, constant(graph, spec, moved, turned)?))
+    Some(vec![(before, constant(graph, spec, moved, turned)?)])
 }
 
 fn constant(graph: &Graph, spec: &Spec, velocity: [Node; 3], rotation: [Node; 3]) -> Option<[f64; 6]> {
@@ -105,6 +104,18 @@ fn constant(graph: &Graph, spec: &Spec, velocity: [Node; 3], rotation: [Node; 3]
     let constant = (1..SAMPLES).all(|sample| first.iter().zip(at(sample)).all(same));
     let errors: [f64; 6] = first.try_into().ok()?;
     constant.then_some(errors.map(|value| if value.abs() > 1e-12 * largest { value } else { 0.0 }))
+}
+
+/// Returns the errors that are not zero, as unknowns of a model.
+pub(crate) fn unknowns_of(errors: &FrameErrors) -> impl Iterator<Item = (Unknown, f64)> {
+    let of_frame = |(frame, errors): &(usize, [f64; 6])| {
+        let frame = *frame;
+        Component::ALL
+            .into_iter()
+            .zip(*errors)
+            .map(move |(component, error)| (Unknown::Error(frame, component), error))
+    };
+    errors.iter().flat_map(of_frame).filter(|(_, error)| *error != 0.0)
 }
 
 /// Returns whether the error of a number is an angle.

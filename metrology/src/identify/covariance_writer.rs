@@ -55,9 +55,8 @@ impl FoundModel {
             Uncertain::Error(frame, component) => {
                 Some((format!("frame = {}, {}", quoted(&spec.frames[frame].name), error(component)), 1.0))
             }
-            Uncertain::Held(of, size) => source(&spec.sources[of].name, size),
             Uncertain::Fitted(row) => {
-                let own = self.magnitudes.iter().find(|found| found.row == row);
+                let own = self.magnitudes.iter().find(|found| found.row == Some(row));
                 // A compliance matrix has no single magnitude.
                 let is_written = |found: &&FoundTerm| {
                     found.row == row && self.is_expressible(spec, found) && !self.is_in_full_compliance(found)

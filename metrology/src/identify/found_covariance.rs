@@ -1,16 +1,10 @@
 //! Covariance of the errors of the identified machine, relative to base and target.
 //!
-//! A fit determines combinations of the unknowns θ: the kept unknowns take the values `x = R θ`,
-//! where R adds to each kept unknown those held at zero that act as it in these data. Numbers of
-//! the chain replace some kept unknowns by `v = F x`; the columns of W are the errors of the
-//! written values. The written machine differs from the real one by
-//!
-//! ```text
-//! W F x̂ − θ = W F (x̂ − R θ) + (W F R − 1) θ
-//! ```
-//!
-//! The first term is the noise, with the covariance C of the fit. The second has no effect on these
-//! data; with the priors σ of θ it has the parts `(W F R − 1) diag(σ)`.
+//! A fit has combinations `x = R θ` of the unknowns θ, where R adds to each kept error those that
+//! act as it in every configuration, with the posterior covariance C: noise, and where the data say
+//! little, the prior. Numbers of the chain replace some kept unknowns by `v = F x`; the columns of W
+//! are the errors of the written values. The written machine differs from the real one by
+//! `W F (x̂ − x)`, of which `W F C^½` are the parts.
 //!
 //! What no configuration shows once base and target are set up anew is no error of the machine.
 //! With the effects G of the errors on the measured points in the fitted rows, and those B of the
@@ -22,16 +16,19 @@ use abbe::analysis::decompose::symmetric_eigen;
 use abbe::analysis::{Workspace, joint_samples};
 use abbe::identify::{Failure, Measurement, Model, Observation, Unknown};
 use abbe::{Component, Error, Pose, Quantity};
-use nalgebra::{DMatrix, DVector, RowDVector, SymmetricEigen};
+use nalgebra::{DMatrix, RowDVector, SymmetricEigen};
 
 use super::as_joint_errors::AsJointErrors;
+use super::chain_numbers::unknowns_of;
 use super::fitted::{fitted_mountings, fitted_targets};
-use super::priors::Prior;
 use super::setup::Setup;
 use super::solve::Solved;
 
 /// Number of configurations at which effects are evaluated.
 const SAMPLES: usize = 100;
+
+/// Smallest effect of a motion of base and target in the fitted rows, as a share of the largest.
+const SEEN: f64 = 1e-4;
 
 /// Smallest effect of a part, as a share of the largest effect of one unknown.
 const NO_EFFECT: f64 = 1e-6;
@@ -60,8 +57,6 @@ pub(super) enum Uncertain {
     Error(usize, Component),
     /// A magnitude that was fitted, by its index among the kept unknowns.
     Fitted(usize),
-    /// A magnitude that was held at its declared value: index of the source, and that value.
-    Held(usize, f64),
 }
 
 impl FoundCovariance {
@@ -140,20 +135,16 @@ impl Uncertain {
             Unknown::Error(frame, component) => Some(Self::Error(frame, component)),
             _ => {
                 let k = solved.model.unknowns.iter().position(|one| *one == unknown)?;
-                let kept = solved.fit.identifiable.kept.iter().position(|one| *one == k).map(Self::Fitted);
-                kept.or_else(|| solved.own_magnitude(k).map(|own| Self::Held(own.source, own.declared.value)))
+                solved.fit.identifiable.kept.iter().position(|one| *one == k).map(Self::Fitted)
             }
         }
     }
 }
 
-/// Returns `W F C^½` and `(W F R − 1) diag(σ)` side by side: a row for each unknown.
+/// Returns `W F C^½`: a row for each unknown.
 fn parts(solved: &Solved, joint_errors: Option<&AsJointErrors>) -> Result<DMatrix<f64>, Failure> {
     let (model, fit) = (&solved.model, &solved.fit);
     let (p, kept) = (model.unknowns.len(), &fit.identifiable.kept);
-    let default = model.priors(Prior::DEFAULT_SHARE)?;
-    let priors = (0..p).map(|k| fit.priors.get(k).copied().flatten().or(default[k]));
-    let sizes = model.expected(&priors.collect::<Vec<_>>())?;
     let mut w = DMatrix::zeros(p, kept.len());
     kept.iter().enumerate().for_each(|(i, k)| w[(*k, i)] = 1.0);
     let mut forms = DMatrix::identity(kept.len(), kept.len());
@@ -161,9 +152,7 @@ fn parts(solved: &Solved, joint_errors: Option<&AsJointErrors>) -> Result<DMatri
         forms = DMatrix::from_fn(kept.len(), kept.len(), |i, j| joint_errors.forms[i][j]);
         for number in &joint_errors.numbers {
             w.column_mut(number.index).fill(0.0);
-            let (frame, errors) = number.twist;
-            for (component, error) in Component::ALL.into_iter().zip(errors) {
-                let unknown = Unknown::Error(frame, component);
+            for (unknown, error) in unknowns_of(&number.errors) {
                 if let Some(k) = model.unknowns.iter().position(|one| *one == unknown) {
                     w[(k, number.index)] = error;
                 }
@@ -174,19 +163,7 @@ fn parts(solved: &Solved, joint_errors: Option<&AsJointErrors>) -> Result<DMatri
     let SymmetricEigen { eigenvalues, eigenvectors } =
         symmetric_eigen(fit.covariance.clone()).ok_or(NOT_FINITE)?;
     let root = eigenvectors * DMatrix::from_diagonal(&eigenvalues.map(|value| value.max(0.0).sqrt()));
-    // Places on the bench, and where the machine stands on it, are no errors of the machine.
-    let is_of_bench =
-        |unknown: Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Fixture(..) | Unknown::Zero(_));
-    let uncertain = (0..p).filter(|k| !is_of_bench(model.unknowns[*k]));
-    let uncertain: Vec<(usize, f64)> = uncertain.filter_map(|k| Some((k, sizes[k]?))).collect();
-    let mut parts = DMatrix::zeros(p, root.ncols() + uncertain.len());
-    parts.columns_mut(0, root.ncols()).copy_from(&(&written * &root));
-    for (i, (k, size)) in uncertain.iter().enumerate() {
-        let mut direction = &written * DVector::from_vec(fit.identifiable.kept_coordinates(*k));
-        direction[*k] -= 1.0;
-        parts.set_column(root.ncols() + i, &(direction * *size));
-    }
-    Ok(parts)
+    Ok(written * root)
 }
 
 /// Subtracts from each part the motions of what is set up anew, in the rows `anew`, that are
@@ -199,7 +176,7 @@ fn without_setups(effects: &DMatrix<f64>, anew: &[usize], parts: &mut DMatrix<f6
     let lengths: Vec<f64> =
         motions.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
     motions.column_iter_mut().zip(&lengths).for_each(|(mut column, length)| column /= *length);
-    let Ok(nearest) = motions.svd(true, true).solve(&(effects * &*parts), 1e-9) else { return };
+    let Ok(nearest) = motions.svd(true, true).solve(&(effects * &*parts), SEEN) else { return };
     for ((i, k), length) in anew.iter().enumerate().zip(&lengths) {
         let change = nearest.row(i) / *length;
         parts.row_mut(*k).zip_apply(&change, |value, change| *value -= change);

@@ -80,8 +80,8 @@ pub struct FoundTerm {
 /// Identified magnitude of a source of the spec.
 #[derive(Clone, Copy, Debug)]
 pub struct FoundMagnitude {
-    /// Index among the kept unknowns.
-    pub row: usize,
+    /// Index among the kept unknowns; none if another one stands for it.
+    pub row: Option<usize>,
     /// Index among all sources of the spec.
     pub source: usize,
     /// Factor of the source.
@@ -116,21 +116,19 @@ impl FoundModel {
             let k = kept[row];
             match model.unknowns[k] {
                 Unknown::Error(frame, component) => found.frames[frame].push(error(component)),
-                Unknown::Magnitude(_) => match solved.own_magnitude(k) {
-                    Some(own) => found.magnitudes.push(FoundMagnitude {
-                        row,
-                        source: own.source,
-                        magnitude: own.declared.value + value,
-                        standard_deviation,
-                    }),
-                    None => {
-                        let term = solved.terms[k - first];
-                        found.terms.push(FoundTerm { row, term, magnitude: value, standard_deviation });
-                    }
-                },
+                Unknown::Magnitude(_) if k >= first => {
+                    let term = solved.terms[k - first];
+                    found.terms.push(FoundTerm { row, term, magnitude: value, standard_deviation });
+                }
                 _ => {}
             }
         }
+        let own = solved.own.iter().enumerate().take(first);
+        found.magnitudes.extend(own.filter_map(|(k, own)| {
+            let (magnitude, standard_deviation) = solved.magnitude(k)?;
+            let row = kept.iter().position(|one| *one == k);
+            Some(FoundMagnitude { row, source: own.source, magnitude, standard_deviation })
+        }));
         for one in joint_errors.iter().flat_map(|one| &one.numbers) {
             let term = Term { site: ErrorSite::from_chain_number(one.number), basis: Basis::One };
             let (magnitude, standard_deviation) = (one.value, one.standard_deviation);

@@ -95,8 +95,14 @@ impl FoundPlacement {
             let k = model.unknowns.iter().position(|u| *u == unknown)?;
             fit.identifiable.kept.iter().position(|kept| *kept == k)
         };
+        // Places that the rows do not show stay as stated.
+        let stated = |unknown: Unknown| {
+            let weak = fit.identifiable.weak.iter().find(|weak| model.unknowns[weak.unknown] == unknown);
+            weak.map_or(0.0, |weak| weak.expected.powi(2))
+        };
         let covariance = |a: Unknown, b: Unknown| match (among(a), among(b)) {
             (Some(a), Some(b)) => fit.covariance[(a, b)],
+            (None, None) if a == b => stated(a),
             _ => 0.0,
         };
         let rows = |pose: Pose| pose.rows().map(|row| row.map(|entry| entry + 0.0));
@@ -168,7 +174,7 @@ impl FoundPlacement {
     }
 
     /// Returns the placements on the tool: that of each station, or the common one.
-    pub(super) fn placements(&self) -> Vec<PlacementAtStation> {
+    pub fn placements(&self) -> Vec<PlacementAtStation> {
         if !self.at_stations.is_empty() {
             return self.at_stations.clone();
         }

@@ -1,11 +1,12 @@
 //! Uncertainty of every instrument, and of positions and rotations, as stated or as estimated from
 //! the data.
 
-use abbe::identify::{Failure, Fit, Model, Options, VarianceComponent, fit, variance_components};
+use abbe::identify::{Failure, Fit, Model, Options, VarianceComponent, variance_components};
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use super::options::Settings;
+use super::priors::fit_with_places;
 use super::setup::Setup;
 use super::solve::diagnose;
 use crate::data::{Data, Map};
@@ -122,13 +123,12 @@ pub(super) fn estimate(
     };
     let (mut at, mut shared) = (Vec::new(), None);
     for _ in 0..ROUNDS {
-        let model = setup.real.with(setup.unknowns(settings.only_placement));
+        let model = setup.real.with(setup.unknowns(settings.holds_errors()));
         let estimated = || -> Result<_, Failure> {
-            let priors = settings.prior.for_model(&model)?;
-            let expected = model.expected(&priors)?;
+            let (priors, scaled) = (settings.prior.for_model(&model, setup)?, settings.prior.scaled(&model));
             let options =
-                Options { at: at.clone(), priors, expected, loss: settings.loss, ..Options::default() };
-            let found = fit(&model, &data.observations, &options)?;
+                Options { at: at.clone(), priors, scaled, loss: settings.loss, ..Options::default() };
+            let found = fit_with_places(&model, &data.observations, options)?;
             Ok((variance_components(&model, &data.observations, &found)?, found.x))
         };
         let (components, x) = estimated().map_err(|failure| match failure {

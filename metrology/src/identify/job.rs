@@ -33,7 +33,7 @@ use super::plausibility::{check_lengths, tool_note};
 use super::point_residuals::points;
 use super::profiles::find_profiles;
 use super::read_back::{ReadBack, not_read_back, read_back};
-use super::report::{Certainty, CrossValidation, Indices, LeftOut, Report, TermGain};
+use super::report::{Certainty, CrossValidation, Indices, LeftOut, Parameter, Report, TermGain};
 use super::scale::scale_note;
 use super::setup::Setup;
 use super::solve::Solved;
@@ -205,7 +205,7 @@ impl CrossValidation {
 /// the residual.
 const CONVERSION_TOLERANCE: f64 = 0.01;
 
-/// Returns the identified machine. `left` is the root mean square error of the fitted rows,
+/// Returns the identified machine and the numbers that were fitted. `left` is the root mean square error of the fitted rows,
 /// `instruments` are those whose uncertainty was estimated.
 fn found_model(
     identified: &Identified,
@@ -213,7 +213,7 @@ fn found_model(
     data: &Data,
     left: f64,
     estimated: Vec<InstrumentFit>,
-) -> Result<FoundModel, Failure> {
+) -> Result<(FoundModel, Vec<Parameter>), Failure> {
     let Identified { setup, solved, .. } = *identified;
     let (Solved { model, fit, .. }, rows) = (solved, &data.observations);
     let joint_errors = AsJointErrors::new(spec, model, fit);
@@ -221,7 +221,7 @@ fn found_model(
     let converted = Some(&joint_errors).filter(|_| difference <= CONVERSION_TOLERANCE * left);
     let explanations = Explanations::new(spec, setup, model, fit);
     let left_of_both = [left, identified.cross_validation.after.rms];
-    Ok(FoundModel {
+    let found = FoundModel {
         derived: identified.derived.to_vec(),
         joint_errors: joint_errors.joint_errors(&explanations),
         is_placement: solved.is_placement(),
@@ -232,7 +232,8 @@ fn found_model(
         estimated,
         unexplained: unexplained(setup, solved, rows, left)?,
         ..FoundModel::new(spec, solved, converted, data, setup.pose, left_of_both)
-    })
+    };
+    Ok((found, parameters(setup, solved, spec, converted)))
 }
 
 fn report(
@@ -264,7 +265,7 @@ fn report(
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
     let (left, length) = (compared_fit.after.rms, setup.real.uncertainty.length);
     let estimated = instruments.iter().chain(&coordinates).filter(|one| one.estimated).cloned().collect();
-    let found = found_model(identified, spec, data, left, estimated).map_err(fail)?;
+    let (found, parameters) = found_model(identified, spec, data, left, estimated).map_err(fail)?;
     let note = |written: &ReadBack| found.read_back_note(spec, [written.figures.rms, left], length);
     let (read_back_note, written) = match read_back(&found, machine, map, data, |i| fit.is_kept(i)) {
         Ok(written) => (written.as_ref().and_then(note), written),
@@ -305,7 +306,8 @@ fn report(
         joint_errors: found.joint_errors.clone(),
         target_on_axis: target_on_axis(setup, rows).map_err(fail)?,
         magnitudes: magnitudes(spec, solved),
-        parameters: parameters(setup, solved, spec),
+        parameters,
+        prior: solved.prior.filter(|_| !solved.is_placement()),
         redundant: redundant(model, identifiable),
         correlations: correlated(model, fit),
         uncertainty_factor: fit.sigma,

@@ -105,8 +105,8 @@ pub use outliers::shown_lines;
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
-    Certainty, Compared, CrossValidation, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Redundant,
-    Report, TermGain,
+    Certainty, Compared, CrossValidation, Indices, Kind, LeftOut, Magnitude, MagnitudeSum, Pair, Parameter,
+    Redundant, Report, TermGain, Written,
 };
 pub use spec_writer::IdentifiedSpec;
 pub use terms::{Angle, Basis, ErrorSite, HeldJoint, Term, Wave};
@@ -115,7 +115,7 @@ pub use weakly_determined::WeaklyDetermined;
 
 pub use crate::sizes::Sizes;
 
-pub(crate) use chain_numbers::chain_errors;
+pub(crate) use chain_numbers::{chain_errors, unknowns_of};
 pub(crate) use indistinguishable::indistinguishable;
 pub(crate) use interpretation_check::check_interpretation;
 pub(crate) use line_of_sight::{nothing_readable, readable_configurations};

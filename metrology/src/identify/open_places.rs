@@ -2,12 +2,13 @@
 //! specified before measurements are compared with it.
 
 use abbe::Component;
-use abbe::identify::{Failure, Fit, Fixture, Measurement, Options, Unknown, fit};
+use abbe::identify::{Failure, Fit, Fixture, Measurement, Options, Unknown};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::fitted::{
     fitted_fixture, fitted_intrinsics, fitted_mountings, fitted_stations, fitted_targets, fitted_zero,
 };
+use super::priors::{Prior, fit_with_places};
 use super::setup::Setup;
 use crate::data::{Data, Map};
 use abbe_study::mistake;
@@ -56,9 +57,9 @@ impl Setup<'_> {
             self.come_near(data).map_err(fail)?;
         }
         let model = self.real.with(unknowns);
-        // Tilts of a dial whose tip always touches the same point are not determined.
-        let options = Options { expected: model.expected(&[]).map_err(fail)?, ..Options::default() };
-        let fit = fit(&model, &data.observations, &options).map_err(fail)?;
+        let priors = Prior::Auto.for_model(&model, self).map_err(fail)?;
+        let options = Options { priors, ..Options::default() };
+        let fit = fit_with_places(&model, &data.observations, options).map_err(fail)?;
         self.set_stations(&fitted_stations(&model, &fit.x));
         let fixtures = (0..model.fixtures.len())
             .map(|i| Fixture { geometry: fitted_fixture(&model, &fit.x, i), ..model.fixtures[i].clone() });

@@ -78,6 +78,13 @@ pub struct Settings {
     pub points: bool,
 }
 
+impl Settings {
+    /// Returns whether errors of frames are held at zero.
+    pub(super) fn holds_errors(&self) -> bool {
+        self.only_placement || self.prior.share() == 0.0
+    }
+}
+
 impl Default for Settings {
     fn default() -> Self {
         let (loss, prior) = Default::default();
@@ -86,9 +93,9 @@ impl Default for Settings {
 }
 
 impl Default for Prior {
-    /// Returns the default: a hundredth of the arm length, and 0.01 rad.
+    /// Returns the default: the data choose the scale.
     fn default() -> Self {
-        Self::Share(Self::DEFAULT_SHARE)
+        Self::Auto
     }
 }
 

@@ -3,6 +3,7 @@
 use abbe::identify::{Fit, Loss, Measurement, Model, Observation, Options, fit, robust_scale};
 use abbe_spec::option::ROBUST_TUKEY;
 
+use super::priors::Prior;
 use crate::data::Data;
 
 /// Largest number of rows for the robust fit.
@@ -22,7 +23,7 @@ pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option
         }
     }
     let part: Vec<Observation> = rows.iter().step_by(rows.len().div_ceil(ROWS).max(1)).cloned().collect();
-    let priors = model.priors(0.01).ok()?;
+    let priors = model.priors(Prior::DEFAULT_SHARE).ok()?;
     let robust = fit(model, &part, &Options { loss: Loss::Tukey, priors, ..Options::default() }).ok()?;
     // With several instruments, the largest uncertainty counts.
     let lengths = model.observables.iter().filter(|reading| !reading.kind.is_angle && model.camera.is_none());

@@ -3,44 +3,51 @@
 use abbe::identify::{Camera, Fit, Identifiable, Model, Unknown};
 use abbe_spec::Spec;
 
+use super::as_joint_errors::AsJointErrors;
 use super::magnitude::OwnMagnitude;
-use super::report::{Kind, Magnitude, Pair, Parameter, Redundant};
+use super::report::{Kind, Magnitude, MagnitudeSum, Pair, Parameter, Redundant};
 use super::setup::Setup;
 use super::solve::Solved;
 use abbe_study::IsoAxis;
+use abbe_study::number::digits;
 
 /// Returns the identified magnitudes of the sources of the spec.
 pub(super) fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
     let Solved { model, fit, own, .. } = solved;
     let deviations = fit.standard_deviations();
-    let one = |own: &OwnMagnitude| {
-        let of_this = |k: &usize| solved.own_magnitude(*k).is_some_and(|one| one.source == own.source);
-        let k = (0..model.unknowns.len()).find(of_this);
+    let one = |(k, own): (usize, &OwnMagnitude)| {
         let (source, declared) = (spec.sources[own.source].name.clone(), own.declared.value);
         let declared_deviation = own.declared.standard_deviation;
-        let standard_deviation = k.and_then(|k| deviations[k]);
-        let value = declared + k.map_or(0.0, |k| fit.x[k]);
-        let stands_for = k.map_or(Vec::new(), |k| solved.held_magnitudes(spec, k));
-        let prior_dominated = k.is_some_and(|k| fit.weakly_determined().contains(&k));
-        Magnitude {
-            source,
-            declared,
-            declared_deviation,
-            value,
-            standard_deviation,
-            stands_for,
-            prior_dominated,
-        }
+        let found = solved.magnitude(k);
+        let standard_deviation = found.map(|(_, deviation)| deviation);
+        let others = solved.held_magnitudes(k);
+        let sum = deviations.get(k).copied().flatten().filter(|_| !others.is_empty()).map(|deviation| {
+            let all = [(*own, 1.0)].into_iter().chain(others);
+            let nominal = all.clone().map(|(one, factor)| factor * one.declared.value).sum::<f64>();
+            let of = all.map(|(one, factor)| (spec.sources[one.source].name.clone(), factor)).collect();
+            MagnitudeSum { of, value: nominal + fit.x[k], standard_deviation: deviation }
+        });
+        let is_vague = |prior: f64| standard_deviation.is_some_and(|deviation| deviation > 0.5 * prior);
+        let prior_dominated = declared_deviation.is_some_and(is_vague);
+        let value = found.map_or(declared, |(value, _)| value);
+        Magnitude { source, declared, declared_deviation, value, standard_deviation, sum, prior_dominated }
     };
-    own.iter().map(one).collect()
+    // Those of a fit of places alone are no unknowns.
+    let own = own.iter().enumerate().take(model.unknowns.len());
+    own.map(one).collect()
 }
 
-/// Returns the values of the kept unknowns with their standard deviations.
-pub(super) fn parameters(setup: &Setup, solved: &Solved, spec: &Spec) -> Vec<Parameter> {
+/// Returns the numbers that were fitted, with the values that are written.
+pub(super) fn parameters(
+    setup: &Setup,
+    solved: &Solved,
+    spec: &Spec,
+    written: Option<&AsJointErrors>,
+) -> Vec<Parameter> {
     let Solved { model, fit, .. } = solved;
     let (deviations, hardly) = (fit.standard_deviations(), fit.weakly_determined());
     let axes = IsoAxis::all(spec, setup.ideal.manipulator);
-    let parameter = |k: &usize| {
+    let parameter = |(row, k): (usize, &usize)| {
         let unknown = model.unknowns[*k];
         let frame = match unknown {
             Unknown::Base(..) => Some(0),
@@ -54,9 +61,10 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, spec: &Spec) -> Vec<Par
             unknown if unknown.is_placement() => Kind::Placement,
             _ => Kind::Machine,
         };
-        Parameter {
+        let mut found = Parameter {
             kind,
             name: model.name(unknown),
+            written: None,
             frame,
             iso: match unknown {
                 Unknown::Error(frame, component) => IsoAxis::name_of(&axes, frame + 1, component),
@@ -72,12 +80,35 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, spec: &Spec) -> Vec<Par
                 _ => spec.length.symbol(),
             },
             prior_dominated: hardly.contains(k),
+        };
+        let mut of_this = found.as_written();
+        let number = written.and_then(|written| written.numbers.iter().find(|number| number.index == row));
+        let other = written.and_then(|written| written.others.iter().find(|(other, ..)| *other == row));
+        if let Some(number) = number {
+            (of_this.name, of_this.unit) = (number.name.clone(), number.unit(spec));
+            (of_this.value, of_this.standard_deviation) = (number.value, number.standard_deviation);
+        } else if let Some((_, value, deviation)) = other {
+            (of_this.value, of_this.standard_deviation) = (found.value - fit.x[*k] + value, *deviation);
         }
+        for (other, factor) in solved.held_magnitudes(*k) {
+            of_this.name += &format!(" {} {}", times(factor), spec.sources[other.source].name);
+        }
+        found.written = written.is_some().then_some(of_this);
+        found
     };
-    fit.identifiable.kept.iter().map(parameter).collect()
+    fit.identifiable.kept.iter().enumerate().map(parameter).collect()
 }
 
-/// Returns the unknowns that are fixed at zero because they are equivalent to kept ones.
+/// Returns a factor in a sum: `+`, `−`, `+ 2 ×`.
+fn times(factor: f64) -> String {
+    let sign = if factor < 0.0 { '−' } else { '+' };
+    match digits(factor.abs(), 3) {
+        one if one == "1" => sign.to_string(),
+        size => format!("{sign} {size} ×"),
+    }
+}
+
+/// Returns the unknowns that others stand for.
 pub(super) fn redundant(model: &Model, identifiable: &Identifiable) -> Vec<Redundant> {
     let name = |k: &usize| model.name(model.unknowns[*k]);
     let one = |(k, acts_as): &(usize, Vec<(usize, f64)>)| Redundant {

@@ -53,7 +53,8 @@ pub(crate) fn check_plausibility(
         return Ok(());
     }
     let model = setup.real.with(setup.base_and_tool());
-    let options = Options { loss: Loss::Tukey, expected: model.expected(&[])?, ..Options::default() };
+    let options =
+        Options { loss: Loss::Tukey, priors: Prior::Auto.for_model(&model, setup)?, ..Options::default() };
     // The fixtures of instruments have no initial position.
     let placed = map.instruments().is_none();
     let rms = match fit(&model, &rows, &options) {
@@ -162,9 +163,8 @@ pub(super) fn tool_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<Strin
     (deviation > VAGUE * setup.arm).then(|| {
         format!(
             "note: the position of {name} on the tool is determined poorly: {} from the stated one, with a \
-             standard deviation of {}. Errors of the machine stand for a part of it, so they are wrong with \
-             another tool. Measure with more orientations of the tool, or state the position: \
-             `placement = \"exact\"`",
+             standard deviation of {}. Other places, or errors of the machine, can stand for a part of it. \
+             Measure with more orientations of the tool, or state the position: `placement = \"exact\"`",
             length(value),
             length(deviation)
         )

@@ -2,31 +2,32 @@
 
 use abbe::Manipulator;
 use abbe::analysis::variance;
-use abbe::identify::{Failure, Fit, Folds, Model, Observation, Unknown, cross_validate};
+use abbe::identify::{Failure, Fit, Model, Observation, Options, Unknown, fit};
+
+use super::setup::Setup;
 
 /// Expected size of errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prior {
-    /// Share of the arm length for lengths, and the same number in rad for angles; 0 for no prior.
+    /// Share of the arm length for lengths, and the same number in rad for angles; 0 holds the errors
+    /// of frames at zero.
     Share(f64),
     /// Standard deviation of the spec's random sources at each error; the default share where there
     /// is none.
     Spec,
-    /// Share with the smallest error in cross-validation.
+    /// 1 mm per metre of arm and 1 mrad, times a scale that the data choose.
     Auto,
 }
 
-/// Shares that `Auto` tries.
-const SHARES: [f64; 6] = [3e-2, Prior::DEFAULT_SHARE, 3e-3, 1e-3, 3e-4, 1e-4];
-
-/// Relative improvement of the cross-validation error by which a smaller share must be better.
-const BETTER: f64 = 0.01;
-
 impl Prior {
-    /// Default share of the arm length, and angle in rad.
+    /// Share of the arm length, and angle in rad, that errors are expected to have where no data
+    /// say more.
     pub(crate) const DEFAULT_SHARE: f64 = 0.01;
 
-    /// Returns the share for errors without a more specific prior; 0 for no prior.
+    /// Share that is multiplied by the scale.
+    pub(super) const SCALED_SHARE: f64 = 1e-3;
+
+    /// Returns the share for errors without a more specific prior.
     pub(super) fn share(self) -> f64 {
         match self {
             Self::Share(share) => share,
@@ -37,15 +38,31 @@ impl Prior {
     /// Returns smaller shares, the largest first.
     pub(super) fn smaller(self) -> impl Iterator<Item = Self> {
         let share = self.share();
-        SHARES.into_iter().filter(move |smaller| *smaller < share).map(Self::Share)
+        [3e-3, 1e-3, 3e-4, 1e-4].into_iter().filter(move |smaller| *smaller < share).map(Self::Share)
     }
 
-    /// Returns standard deviations about zero for the unknowns of a model.
-    pub(super) fn for_model(self, model: &Model) -> Result<Vec<Option<f64>>, Failure> {
+    /// Returns the unknowns whose priors have a scale that the data choose.
+    pub(super) fn scaled(self, model: &Model) -> Vec<usize> {
+        let is_error = |k: &usize| self == Self::Auto && matches!(model.unknowns[*k], Unknown::Error(..));
+        (0..model.unknowns.len()).filter(is_error).collect()
+    }
+
+    /// Returns standard deviations about zero for the unknowns of a model. Places that neither map nor
+    /// drawing states are known to the length of the arm and to a radian.
+    pub(super) fn for_model(self, model: &Model, setup: &Setup) -> Result<Vec<Option<f64>>, Failure> {
+        let mut priors = self.for_machine(model)?;
+        for (prior, unknown) in
+            priors.iter_mut().zip(&model.unknowns).filter(|(_, one)| setup.open.has(**one))
+        {
+            *prior = Some(if unknown.is_rotation() { 1.0 } else { setup.arm });
+        }
+        Ok(priors)
+    }
+
+    fn for_machine(self, model: &Model) -> Result<Vec<Option<f64>>, Failure> {
         match self {
-            Self::Share(share) if share > 0.0 => model.priors(share),
-            Self::Share(_) => Ok(Vec::new()),
-            Self::Auto => model.priors(Self::DEFAULT_SHARE),
+            Self::Share(share) => model.priors(share),
+            Self::Auto => model.priors(Self::SCALED_SHARE),
             Self::Spec => {
                 let mut priors = model.priors(Self::DEFAULT_SHARE)?;
                 let spec_variances = spec_variances(model.manipulator, &model.s).map_err(Failure::Machine)?;
@@ -60,31 +77,24 @@ impl Prior {
             }
         }
     }
+}
 
-    /// Resolves `Auto` to the share with the smallest cross-validation error, and returns any other
-    /// prior unchanged. Of shares that are about as good, the largest is chosen because it assumes
-    /// least. `fitted` fits the model with a prior.
-    pub(super) fn resolve(
-        self,
-        model: &Model,
-        rows: &[Observation],
-        folds: usize,
-        fitted: impl Fn(&Model, Self) -> Result<Fit, Failure>,
-    ) -> Result<Self, Failure> {
-        if self != Self::Auto {
-            return Ok(self);
+/// Fits a model. Where the iterations do not converge because rows hardly determine a place, it is
+/// expected to be ten times, then a hundred times nearer to where it is stated.
+pub(super) fn fit_with_places(
+    model: &Model,
+    rows: &[Observation],
+    mut options: Options,
+) -> Result<Fit, Failure> {
+    for _ in 0..2 {
+        match fit(model, rows, &options) {
+            Err(Failure::NotConverged { .. }) => {}
+            found => return found,
         }
-        let mut best: Option<(f64, f64)> = None;
-        for share in SHARES {
-            let validated = |fit| cross_validate(model, rows, &fit, &Folds::new(rows, folds));
-            let Ok(found) = fitted(model, Self::Share(share)).and_then(validated) else { continue };
-            let rms = found.figures().rms;
-            if best.is_none_or(|(_, least)| rms < least * (1.0 - BETTER)) {
-                best = Some((share, rms));
-            }
-        }
-        Ok(best.map_or(self, |(share, _)| Self::Share(share)))
+        let places = options.priors.iter_mut().zip(&model.unknowns).filter(|(_, one)| one.is_placement());
+        places.for_each(|(prior, _)| *prior = prior.map(|sigma| 0.1 * sigma));
     }
+    fit(model, rows, &options)
 }
 
 /// Computes the variance of every generalized error of every frame at home that the random sources

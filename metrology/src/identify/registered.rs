@@ -2,7 +2,9 @@
 //! the data best given the other.
 
 use abbe::Pose;
-use abbe::identify::{Failure, Measurement, Model, Observable, Observation, register, register_pairs};
+use abbe::identify::{
+    Failure, Measurement, Model, Observable, Observation, Unknown, register, register_pairs,
+};
 
 /// Largest number of alternating registrations of stations and tool.
 const ROUNDS: usize = 50;
@@ -16,6 +18,19 @@ pub(super) struct OpenPlaces {
     pub(super) targets: Vec<bool>,
     /// Mountings of the model, by their index.
     pub(super) mountings: Vec<bool>,
+}
+
+impl OpenPlaces {
+    /// Returns whether an unknown belongs to one of these places.
+    pub(super) fn has(&self, unknown: Unknown) -> bool {
+        let (places, i) = match unknown {
+            Unknown::Base(station, _) => (&self.stations, station),
+            Unknown::Target(target, _) => (&self.targets, target),
+            Unknown::Tool(placement, _) => (&self.mountings, placement),
+            _ => return false,
+        };
+        places.get(i) == Some(&true)
+    }
 }
 
 /// Registers open stations and open places on the tool in turn, until `is_near`.

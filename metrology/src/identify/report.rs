@@ -58,11 +58,14 @@ pub struct Report {
     /// Last revolute joint, if all targets are on its axis; some errors cannot be distinguished
     /// then.
     pub target_on_axis: Option<String>,
-    /// Errors that these data determine poorly compared with their prior; they are fixed at zero.
+    /// Prior standard deviation of errors of frames, as a share of the size of the machine, and in
+    /// rad; `None` if it is that of the spec, or if they are not fitted.
+    pub prior: Option<f64>,
+    /// Errors that these data determine poorly compared with their prior.
     pub weakly_determined: Vec<WeaklyDetermined>,
     /// Magnitudes of sources of the spec that were unknown.
     pub magnitudes: Vec<Magnitude>,
-    /// Unknowns that are fixed at zero because they are equivalent to kept ones.
+    /// Unknowns that act as others in every configuration, which stand for them.
     pub redundant: Vec<Redundant>,
     /// Pairs of parameters with an absolute correlation above 0.9.
     pub correlations: Vec<Pair>,
@@ -220,6 +223,9 @@ pub enum Kind {
 pub struct Parameter {
     /// Name: `e_x1`, or `e_x0` for the base.
     pub name: String,
+    /// Number that is written in its place, with its own value; `None` if it is the unknown itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub written: Option<Written>,
     /// Object that the unknown belongs to.
     pub kind: Kind,
     /// Frame of an error, from 1; 0 is the base. None for other unknowns.
@@ -240,6 +246,27 @@ pub struct Parameter {
     pub prior_dominated: bool,
 }
 
+/// Number that is written in place of a kept unknown.
+#[derive(Clone, Debug, Serialize)]
+pub struct Written {
+    /// Name: `zero of q2`, `a of shoulder`, `e_x1`; `inner + outer` for magnitudes that act alike.
+    pub name: String,
+    /// Identified value, in `unit`.
+    pub value: f64,
+    /// Standard deviation of the value, in `unit`.
+    pub standard_deviation: f64,
+    /// Unit: the length unit, rad, or empty.
+    pub unit: &'static str,
+}
+
+impl Parameter {
+    /// Returns the number that is written, under its own name.
+    pub fn as_written(&self) -> Written {
+        let Self { name, value, standard_deviation, unit, .. } = self.clone();
+        self.written.clone().unwrap_or(Written { name, value, standard_deviation, unit })
+    }
+}
+
 /// Identified magnitude of a source of the spec.
 #[derive(Clone, Debug, Serialize)]
 pub struct Magnitude {
@@ -249,20 +276,30 @@ pub struct Magnitude {
     pub declared: f64,
     /// Standard deviation declared in the spec, in coherent units; `None` if there is none.
     pub declared_deviation: Option<f64>,
-    /// Identified magnitude, in coherent units; the declared one if the data do not determine it.
+    /// Identified magnitude, in coherent units; the declared one if it has no effect of its own.
     pub value: f64,
-    /// Standard deviation of the magnitude, in coherent units; `None` if the data do not determine
-    /// it.
+    /// Standard deviation of the magnitude, in coherent units; `None` if it has no effect
+    /// of its own.
     pub standard_deviation: Option<f64>,
-    /// Magnitudes fixed at their declared values that act as this one in these data, with their
-    /// factors: the value stands for this magnitude plus their sum.
-    pub stands_for: Vec<(String, f64)>,
+    /// Sum of this magnitude and of those that act as it; `None` if there are none.
+    pub sum: Option<MagnitudeSum>,
     /// Is true if the standard deviation exceeds half of the declared one: the data contribute
     /// little.
     pub prior_dominated: bool,
 }
 
-/// Unknown that is fixed at zero, and the combination it is equivalent to.
+/// Sum of magnitudes that act alike.
+#[derive(Clone, Debug, Serialize)]
+pub struct MagnitudeSum {
+    /// Names of the sources and their factors.
+    pub of: Vec<(String, f64)>,
+    /// Identified value, in coherent units.
+    pub value: f64,
+    /// Standard deviation of the value, in coherent units.
+    pub standard_deviation: f64,
+}
+
+/// Unknown that others stand for, and the combination that it is equivalent to.
 #[derive(Clone, Debug, Serialize)]
 pub struct Redundant {
     /// Name of the unknown.

@@ -11,7 +11,7 @@ use abbe::identify::{
 };
 use abbe::{Component, Error, Pose, VariableKind};
 
-use abbe_study::number::{self, digits};
+use abbe_study::number::digits;
 
 /// Computes the smallest possible standard deviation of the scale, as a share, with all other
 /// unknowns known; infinite if the readings do not define it.
@@ -60,18 +60,10 @@ pub(crate) fn scale_note(
     Ok(match deviation {
         _ if ideal.observables.is_empty() || deviation == 0.0 => None,
         _ if deviation > 0.1 => {
-            let relative = ideal.reference_length.map_or(String::new(), |reference| {
-                let length = number::length(reference.length.abs(), ideal.manipulator.description().length);
-                format!(
-                    " The lengths are relative to that of `{}`, which is taken as nominal, {length}.",
-                    ideal.name(reference.error)
-                )
-            });
-            Some(format!(
-                "These measurements do not determine the scale of the machine: scaling all its \
-                 lengths does not change them.{relative} A known length determines it: a calibrated \
-                 bar, or a draw-wire sensor."
-            ))
+            let sentence = "These measurements do not determine the scale of the machine: scaling all its \
+                            lengths does not change them, so the nominal one counts. A known length \
+                            determines it: a calibrated bar, or a draw-wire sensor.";
+            Some(sentence.to_owned())
         }
         _ => Some(format!(
             "These measurements determine the scale of the machine to {} mm per metre at best \

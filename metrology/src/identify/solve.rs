@@ -1,8 +1,7 @@
 //! Fit and cross-validation on the data alone.
 
 use abbe::VariableKind;
-use abbe::identify::{Distances, Failure, Fit, Folds, Loss, Model, Options, Unknown, cross_validate, fit};
-use abbe_spec::Spec;
+use abbe::identify::{Distances, Failure, Fit, Folds, Loss, Model, Options, Unknown, cross_validate};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Motion;
 use abbe_spec::option::{ONLY_PLACEMENT, ROBUST_TUKEY};
@@ -11,7 +10,7 @@ use super::joint_profiles::JointProfiles;
 use super::magnitude::OwnMagnitude;
 use super::options::Settings;
 use super::outliers;
-use super::priors::Prior;
+use super::priors::{Prior, fit_with_places};
 use super::setup::Setup;
 use super::terms::{Basis, ErrorSite, Term};
 use crate::data::Data;
@@ -34,6 +33,9 @@ pub(super) struct Solved<'a> {
     pub(super) terms: Vec<Term>,
     /// Profiles of joints, which the manipulator has as known sources.
     pub(super) profiles: Option<JointProfiles>,
+    /// Prior standard deviation of the errors of frames, as a share of the size and in rad; none if
+    /// it is that of the spec, or if they are held.
+    pub(super) prior: Option<f64>,
     /// Notes for the report.
     pub(super) notes: Vec<String>,
 }
@@ -54,8 +56,8 @@ pub(super) fn solve<'a>(
     let diagnose = |cause: Failure| diagnose(&cause, data);
     let options = Options { loss: settings.loss, ..Options::default() };
     let simple = setup.real.with(setup.base_and_tool());
-    let expected = simple.expected(&[]).map_err(diagnose)?;
-    let simple_x = fit(&simple, rows, &Options { expected, ..options.clone() }).map_err(diagnose)?.x;
+    let priors = settings.prior.for_model(&simple, setup).map_err(diagnose)?;
+    let simple_x = fit_with_places(&simple, rows, Options { priors, ..options.clone() }).map_err(diagnose)?.x;
 
     let only = settings.only_placement;
     let (own, terms) = if only { Default::default() } else { (own, terms) };
@@ -64,9 +66,11 @@ pub(super) fn solve<'a>(
     let of_terms = magnitudes.take(terms.len());
     // Of equivalent unknowns, magnitudes named in the spec are kept before errors of frames, and
     // terms after them.
-    let model = setup.real.with(of_own.into_iter().chain(setup.unknowns(only)).chain(of_terms).collect());
+    let model = setup
+        .real
+        .with(of_own.into_iter().chain(setup.unknowns(settings.holds_errors())).chain(of_terms).collect());
     let fitted = |model: &Model, prior: Prior| -> Result<Fit, Failure> {
-        let mut priors = prior.for_model(model)?;
+        let mut priors = prior.for_model(model, setup)?;
         let share = prior.share();
         priors.resize(model.unknowns.len(), None);
         for (prior, own) in priors.iter_mut().zip(own) {
@@ -78,16 +82,15 @@ pub(super) fn solve<'a>(
             let share = if term.basis == Basis::One { share } else { share.min(1e-3) };
             *prior = Some(share * term.scale(setup));
         }
-        let expected = model.expected(&priors)?;
-        let at = embedded(&simple, &simple_x, model);
-        fit(model, rows, &Options { at, priors, expected, ..options.clone() })
+        let (at, scaled) = (embedded(&simple, &simple_x, model), prior.scaled(model));
+        fit_with_places(model, rows, Options { at, priors, scaled, ..options.clone() })
     };
     let validated = |prior: Prior| {
         let fit = fitted(&model, prior)?;
         let cross_validated = cross_validate(&model, rows, &fit, &Folds::new(rows, settings.folds))?;
         Ok((fit, cross_validated))
     };
-    let mut prior = settings.prior.resolve(&model, rows, settings.folds, fitted).map_err(diagnose)?;
+    let mut prior = settings.prior;
     let mut found = validated(prior);
     // Errors of both ends of a leg act nearly alike: what tells them apart can be a valley of the
     // cost, too long and too curved to follow.
@@ -114,6 +117,7 @@ pub(super) fn solve<'a>(
         notes.note(warning);
     }
     let (fit, cross_validated) = found.map_err(diagnose)?;
+    let scale = fit.scale;
     let mut solved = Solved {
         cross_validated,
         simple: simple.clone(),
@@ -123,15 +127,17 @@ pub(super) fn solve<'a>(
         own: own.to_vec(),
         terms: terms.to_vec(),
         profiles: None,
+        prior: match prior {
+            Prior::Share(share) => Some(share).filter(|share| *share > 0.0),
+            Prior::Auto => Some(Prior::SCALED_SHARE * scale),
+            Prior::Spec => None,
+        },
         notes: warning.into_iter().map(|warning| format!("note: {warning}")).collect(),
     };
     if prior != settings.prior {
-        let why = match settings.prior {
-            Prior::Auto => "chosen by cross-validation",
-            _ => "the largest of those tried with which the iterations converge",
-        };
         solved.notes.push(format!(
-            "note: prior standard deviation of the errors: {} % of the length of the arm, {why}",
+            "note: prior standard deviation of the errors: {} % of the length of the arm, the largest of those \
+             tried with which the iterations converge",
             digits(100.0 * prior.share(), 2)
         ));
     }
@@ -157,13 +163,23 @@ impl Solved<'_> {
         self.own.get(unknown).copied()
     }
 
-    /// Returns the magnitudes fixed at their declared values that act as an unknown, with their
-    /// factors: the value of the unknown stands for the sum.
-    pub(super) fn held_magnitudes(&self, spec: &Spec, unknown: usize) -> Vec<(String, f64)> {
+    /// Returns the magnitude of a source of the spec, the unknown k, and its standard deviation; none
+    /// if it has no effect.
+    pub(super) fn magnitude(&self, k: usize) -> Option<(f64, f64)> {
+        let (own, fit) = (self.own_magnitude(k)?, &self.fit);
+        let place = fit.identifiable.kept.iter().position(|one| *one == k);
+        let alone = place.map(|i| (fit.x[k], fit.covariance[(i, i)].max(0.0).sqrt()));
+        let acts = fit.identifiable.kept_coordinates(k).iter().any(|factor| *factor != 0.0);
+        let (value, deviation) = fit.single(k).filter(|_| acts).or(alone)?;
+        Some((own.declared.value + value, deviation))
+    }
+
+    /// Returns the other magnitudes that act as an unknown, with their factors.
+    pub(super) fn held_magnitudes(&self, unknown: usize) -> Vec<(OwnMagnitude, f64)> {
         let held = self.fit.identifiable.redundant.iter().filter_map(|(k, acts_as)| {
             let own = self.own_magnitude(*k)?;
             let (_, factor) = acts_as.iter().find(|(kept, _)| *kept == unknown)?;
-            Some((spec.sources[own.source].name.clone(), *factor))
+            Some((own, *factor))
         });
         held.collect()
     }

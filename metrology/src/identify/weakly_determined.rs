@@ -1,11 +1,10 @@
-//! Errors that the data determine too weakly; they are fixed at zero.
+//! Errors that the data determine poorly.
 
 use abbe::LengthUnit;
 use abbe::identify::{FixtureGeometry, Identifiable, Model, Unknown};
 use serde::Serialize;
 
-/// Error whose standard deviation exceeds half of the prior's. It is fixed at zero and not written
-/// to the spec.
+/// Error whose standard deviation from the data alone exceeds half of the prior's.
 #[derive(Clone, Debug, Serialize)]
 pub struct WeaklyDetermined {
     /// Name of the error.

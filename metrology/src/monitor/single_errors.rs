@@ -1,12 +1,12 @@
 //! Errors that may have changed, each alone, with their effect on the measured values.
 
+use abbe::Description;
 use abbe::identify::{Model, Unknown};
-use abbe::{Component, Description};
 use abbe_spec::Spec;
 
 use super::check_values::CheckValues;
 use super::vectors::{cosine, norm};
-use crate::identify::chain_errors;
+use crate::identify::{chain_errors, unknowns_of};
 
 /// Absolute cosine of two effects above which errors count as one: they differ by less than a
 /// fifth.
@@ -87,10 +87,8 @@ fn candidates(spec: &Spec, model: &Model, numbers: &CheckValues) -> Vec<(SingleE
     };
     let mut all = Vec::new();
     for number in chain_errors(spec) {
-        let parts = Component::ALL.into_iter().zip(number.errors).filter(|(_, error)| *error != 0.0);
-        let parts: Option<Vec<(usize, f64)>> = parts
-            .map(|(component, error)| Some((index_of(Unknown::Error(number.frame, component))?, error)))
-            .collect();
+        let parts = unknowns_of(&number.errors).map(|(unknown, error)| Some((index_of(unknown)?, error)));
+        let parts: Option<Vec<(usize, f64)>> = parts.collect();
         all.extend(parts.map(|parts| one(number.name, number.is_angle, false, &parts)));
     }
     let description = model.manipulator.description();

@@ -271,8 +271,7 @@ impl Plan {
 }
 
 fn identifiable_from(model: &Model, rows: &[Observation]) -> Result<Identifiable, Failure> {
-    let expected = model.expected(&model.priors(Prior::DEFAULT_SHARE)?)?;
-    knowable(model, rows, &vec![0.0; model.unknowns.len()], &expected, 1.0)
+    knowable(model, rows, &vec![0.0; model.unknowns.len()], &model.priors(Prior::DEFAULT_SHARE)?)
 }
 
 /// Fills in the measurements of the nominal machine.

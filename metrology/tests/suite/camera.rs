@@ -83,7 +83,7 @@ fn simulated(map: &Map, views: usize, seed: u64) -> Data {
 fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
     let settings = Settings {
         loss: abbe::identify::Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 5,
         time: None,
         points: false,

@@ -175,7 +175,7 @@ compliance = { diagonal = [0, 0, 0, 0, "3e-10/(N*mm)", "3e-10/(N*mm)"] }
     let figures = |data: &Data, test: &Data| {
         let settings = Settings {
             loss: Loss::Squares,
-            prior: Prior::Share(0.01),
+            prior: Prior::default(),
             folds: 5,
             time: None,
             points: false,

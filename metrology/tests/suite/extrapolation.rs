@@ -55,7 +55,7 @@ fn measured(samples: usize, near: bool, seed: u64) -> Data {
 fn identified(seed: u64, test: Option<Data>) -> (Report, Machine) {
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 5,
         time: None,
         points: false,

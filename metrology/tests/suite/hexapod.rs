@@ -201,7 +201,8 @@ fn lengths_of_legs_are_identified() {
     assert!(Spec::parse("found.toml", &found).is_ok());
     // The identified machine predicts rows that were not fitted.
     let test = report.test.unwrap();
-    assert!(test.after.max < 1e-6 && test.before.max > 0.1, "{:?}", test.after);
+    // Priors move them by a small part of the uncertainty, 0.001 mm.
+    assert!(test.after.max < 5e-5 && test.before.max > 0.1, "{:?}", test.after);
 }
 
 /// Rows at which the loops do not close are listed with their loop, and change nothing else:

@@ -64,7 +64,7 @@ fn measured(samples: usize, seed: u64) -> Data {
 fn identified(map: &Map, test: &Data) -> Report {
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 5,
         time: None,
         points: false,
@@ -127,7 +127,7 @@ fn inline_inputs_are_kept() {
     let map = Map::parse("map.toml", &text, &nominal.spec).unwrap();
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 5,
         time: None,
         points: false,

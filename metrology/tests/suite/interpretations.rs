@@ -73,7 +73,7 @@ fn read(text: &str, map: &Map) -> Result<Data, String> {
 fn identified(map: &Map, text: &str) -> Result<f64, String> {
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 5,
         time: None,
         points: false,
@@ -276,7 +276,7 @@ fn impossible_lengths_are_refused() {
         let mut heard = RecordedNotes::default();
         let settings = Settings {
             loss: Loss::Squares,
-            prior: Prior::Share(0.01),
+            prior: Prior::default(),
             folds: 5,
             time: None,
             points: false,

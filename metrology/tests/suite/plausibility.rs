@@ -106,7 +106,7 @@ fn measured(machine: &Machine, map: &Map, data: &Data) -> Result<Vec<String>, St
 fn identified(machine: &Machine, map: &Map, data: &Data) -> (Result<(), String>, Vec<String>) {
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 5,
         time: None,
         points: false,

@@ -81,7 +81,7 @@ fn identified(data: &Data, terms: &[Family]) -> Report {
     let map = map(&machine);
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 10,
         time: None,
         points: false,
@@ -290,7 +290,7 @@ fn profiles_refuse_displacements() {
     let data = Data { file: "data.csv".to_owned(), observations, ..Data::default() };
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 5,
         time: None,
         points: false,

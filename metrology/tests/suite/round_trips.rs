@@ -124,7 +124,7 @@ pub(super) fn identify(map: &Map, data: Data, test: Option<Data>) -> Report {
 pub(super) fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 10,
         time: None,
         points: false,

@@ -45,7 +45,7 @@ fn identified(terms: &[Family]) -> Report {
     let data = Data::read(&path, &map).unwrap();
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 10,
         time: None,
         points: false,
@@ -107,7 +107,7 @@ fn drift_is_not_tried_across_stations() {
     let data = Data { file: "simulated".to_owned(), observations, stations, ..Data::default() };
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 10,
         time: None,
         points: false,

@@ -139,7 +139,7 @@ fn calibrated(case: &Case, sign: f64, seed: u64) -> Option<Report> {
     };
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 2,
         time: None,
         points: false,

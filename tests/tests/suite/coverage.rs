@@ -141,7 +141,7 @@ fn calibrated(truth: &str, at: Places, seed: u64) -> Machine {
     let map = Map::parse("map.toml", MAP, &nominal.spec).expect("a map");
     let settings = Settings {
         loss: Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::default(),
         folds: 10,
         time: None,
         points: false,

@@ -35,8 +35,8 @@ pub(super) struct Normal {
     starts: Vec<usize>,
     all: Part,
     folds: Vec<Part>,
-    /// Penalty of each unknown by its prior.
-    priors: Vec<f64>,
+    /// Penalties of the unknowns by their prior.
+    prior: DMatrix<f64>,
     /// Right side of the priors.
     prior_right: DVector<f64>,
     /// Penalties of excluded directions, and their number for each joint.
@@ -130,13 +130,14 @@ impl Normal {
             all.add(&part);
             parts.push(part);
         })?;
-        let prior = |k: &usize| fit.priors.get(*k).copied().flatten().map_or(0.0, |sigma| sigma.powi(-2));
-        let priors: Vec<f64> = kept.iter().map(prior).collect();
+        let prior = fit.prior.tr_mul(&fit.prior);
         let mut prior_right = DVector::zeros(size);
-        (0..kept.len()).for_each(|k| prior_right[k] = -priors[k] * fit.x[kept[k]]);
+        prior_right
+            .rows_mut(0, kept.len())
+            .copy_from(&(&prior * DVector::from_column_slice(&x[..kept.len()]) * -1.0));
         let numbers = all.numbers;
         let mut normal =
-            Self { kept, numbers, starts, all, folds: parts, priors, prior_right, excluded: Vec::new() };
+            Self { kept, numbers, starts, all, folds: parts, prior, prior_right, excluded: Vec::new() };
         normal.excluded = (0..joints.len()).map(|j| normal.excluded(j)).collect();
         Ok(normal)
     }
@@ -165,9 +166,7 @@ impl Normal {
     /// Returns the information about the kept unknowns without profiles, priors included.
     pub(super) fn information(&self) -> DMatrix<f64> {
         let count = self.kept.len();
-        let mut information = self.all.matrix.view((0, 0), (count, count)).into_owned();
-        (0..count).for_each(|k| information[(k, k)] += self.priors[k]);
-        information
+        self.all.matrix.view((0, 0), (count, count)) + &self.prior
     }
 
     /// Returns the penalty `μ Σ u uᵀ`, `u = M d/‖M d‖`, of the directions d of joint j that act as
@@ -203,9 +202,8 @@ impl Normal {
     /// Adds ridges and priors, and factorizes; none if the equations are singular. A joint without
     /// a ridge has no profile.
     fn penalized(&self, mut matrix: DMatrix<f64>, ridges: &[Option<f64>]) -> Option<Cholesky<f64, Dyn>> {
-        for (k, prior) in self.priors.iter().enumerate() {
-            matrix[(k, k)] += prior;
-        }
+        let mut of_unknowns = matrix.view_mut((0, 0), self.prior.shape());
+        of_unknowns += &self.prior;
         for (j, ridge) in ridges.iter().enumerate() {
             let columns = self.columns(j);
             let ridge = ridge.unwrap_or(EXCLUDED * EXCLUDED * self.mean_information(j).max(1e-300));

@@ -93,8 +93,7 @@ fn drawn_constants(random: &mut Xoshiro256PlusPlus) -> Vec<f64> {
 
 fn fitted(model: &Model, data: &[Observation]) -> Fit {
     let priors = model.priors(0.01).unwrap();
-    let expected = model.expected(&priors).unwrap();
-    fit(model, data, &Options { priors, expected, ..Options::default() }).unwrap()
+    fit(model, data, &Options { priors, ..Options::default() }).unwrap()
 }
 
 fn profiles(model: &Model, data: &[Observation], fit: &Fit) -> Option<Profiles> {

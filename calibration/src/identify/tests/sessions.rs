@@ -46,8 +46,7 @@ fn machine(between: f64, seed: u64) -> (Vec<f64>, Vec<f64>, f64) {
     }
     let priors = model.unknowns.iter().map(|unknown| Some(size(unknown)).filter(|size| *size > 0.0));
     let priors: Vec<Option<f64>> = priors.collect();
-    let expected = model.expected(&priors).unwrap();
-    let options = Options { priors: priors.clone(), expected, ..Options::default() };
+    let options = Options { priors: priors.clone(), ..Options::default() };
     let found = fit(&model, &data, &options).unwrap();
     let component = between_stations(&model, &data, &found, &priors).unwrap().unwrap();
     let used: Vec<Observation> = list.iter().skip(2).step_by(6).cloned().collect();

@@ -1,10 +1,13 @@
 //! The first screen: accuracy on held-out rows, most significant errors, and gaps.
 
-use abbe_metrology::identify::{JointError, Kind, Parameter, Report, ResidualDrift, Sizes, overlap_warning};
+use abbe_metrology::identify::{
+    JointError, Kind, Parameter, Report, ResidualDrift, Sizes, Written, overlap_warning,
+};
 use abbe_spec::Spec;
 use abbe_spec::option::FULL;
 use abbe_study::number::{counted, digits, error_unit, fixed};
 
+use super::places::places;
 use crate::document::{Section, Table, first, number, words};
 use crate::views::shared::{
     accepted, angle_in_mrad, drift_clauses, first_notes, first_rows, residual_verdict,
@@ -34,7 +37,7 @@ pub(super) fn headline(report: &Report) -> String {
 pub(super) fn answer(spec: &Spec, report: &Report) -> Section {
     Section::answer()
         .table(sizes(report))
-        .table(significant(report))
+        .table(if report.found.is_placement { places(report) } else { significant(report) })
         .state("no_significant_error", no_significant_error(report))
         .facts(facts(spec, report))
 }
@@ -78,7 +81,8 @@ fn sizes(report: &Report) -> Table {
 }
 
 pub(super) fn significance(parameter: &Parameter) -> f64 {
-    parameter.value.abs() / parameter.standard_deviation.max(f64::MIN_POSITIVE)
+    let Written { value, standard_deviation, .. } = parameter.as_written();
+    value.abs() / standard_deviation.max(f64::MIN_POSITIVE)
 }
 
 pub(super) fn of_machine(report: &Report) -> impl Iterator<Item = &Parameter> {
@@ -103,16 +107,16 @@ fn no_significant_error(report: &Report) -> Option<String> {
 
 fn significant(report: &Report) -> Table {
     let all = significant_errors(report);
-    let columns =
-        [words("significant errors"), number("value"), number("± 1 σ"), words(""), words("in the chain")];
+    let columns = [words("significant errors"), number("value"), number("± 1 σ"), words(""), words("or")];
     let row = |parameter: &&Parameter| {
-        let meaning = report.joint_errors.iter().find(|meaning| meaning.in_place_of == parameter.name);
+        let Written { name, .. } = parameter.as_written();
+        let meaning = report.joint_errors.iter().find(|meaning| meaning.number == name);
         let name = match &parameter.frame_name {
-            Some(frame) => format!("{} ({frame})", parameter.name),
-            None => parameter.name.clone(),
+            Some(frame) if name == parameter.name => format!("{name} ({frame})"),
+            _ => name,
         };
         let [value, deviation, unit] = estimate(report, parameter);
-        [name, value, deviation, unit, meaning.map(JointError::names).unwrap_or_default()]
+        [name, value, deviation, unit, meaning.map(JointError::others).unwrap_or_default()]
     };
     let mut table = Table::new("", columns).rows(all.iter().take(SHOWN).map(row));
     table.rest = match (all.len().saturating_sub(SHOWN), of_machine(report).count() - all.len()) {
@@ -125,15 +129,16 @@ fn significant(report: &Report) -> Table {
 
 /// Formats a value, its standard deviation and their unit.
 pub(super) fn estimate(report: &Report, parameter: &Parameter) -> [String; 3] {
-    let (factor, unit) = match parameter.unit {
+    let Written { value, standard_deviation, unit, .. } = parameter.as_written();
+    let (factor, shown) = match unit {
         unit if unit == report.length => error_unit(report.length),
         unit => angle_in_mrad(unit),
     };
-    let show = |value: f64| match parameter.unit {
+    let show = |value: f64| match unit {
         "" => digits(value, 4),
         _ => fixed(factor * value, 4),
     };
-    [show(parameter.value), show(parameter.standard_deviation), unit.to_owned()]
+    [show(value), show(standard_deviation), shown.to_owned()]
 }
 
 fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
@@ -159,7 +164,7 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
     let mut known = format!("{} of {} unknowns identifiable", report.rank, report.unknowns);
     if !report.weakly_determined.is_empty() {
         let names: Vec<&str> = report.weakly_determined.iter().map(|one| one.name.as_str()).collect();
-        known += &format!("; poorly determined and fixed at zero: {}", first(&names, 4));
+        known += &format!("; poorly determined: {}", first(&names, 4));
     }
     facts.push(("Rank", known));
     if !report.rejected.is_empty() {

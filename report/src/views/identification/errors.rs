@@ -1,6 +1,6 @@
 //! Errors of the machine: estimates, equivalent errors of joints, and magnitudes of sources.
 
-use abbe_metrology::identify::{JointError, Magnitude, Parameter, Report};
+use abbe_metrology::identify::{JointError, Magnitude, Report, Written};
 use abbe_spec::option::PRIOR;
 use abbe_study::number::{digits, fixed};
 
@@ -25,9 +25,16 @@ pub(super) fn machine(report: &Report) -> Section {
     let prior = report.parameters.iter().any(|parameter| parameter.prior_dominated).then(|| {
         format!("Prior-dominated: the prior has more influence on these errors than the data (`{PRIOR}`).")
     });
+    let expected = report.prior.map(|share| {
+        format!(
+            "Before the data, errors are expected to have {} mm per metre of arm, or {0} mrad, as these data \
+             or `{PRIOR}` say.",
+            digits(1e3 * share, 2)
+        )
+    });
     let joint_errors = report.joint_errors.iter().map(|error| joint_error(error, report));
     Section::full("Errors of the machine")
-        .table(estimates(report, "All others are fixed at zero", of_machine(report)))
+        .table(estimates(report))
         .list(
             "equivalent_errors",
             "Equivalent joint offsets and DH errors (in place of the error in brackets)",
@@ -38,33 +45,33 @@ pub(super) fn machine(report: &Report) -> Section {
             "Estimated magnitudes of sources of the spec",
             report.magnitudes.iter().map(magnitude).collect(),
         )
+        .state("expected", expected)
         .state("prior_dominated", prior)
         .state("poorly_determined", poorly_determined(report))
         .state("correlated", correlated)
 }
 
 /// Lists estimates with their standard deviations.
-pub(super) fn estimates<'r>(
-    report: &Report,
-    caption: &str,
-    parameters: impl Iterator<Item = &'r Parameter>,
-) -> Table {
+fn estimates(report: &Report) -> Table {
     let columns =
         [words("error"), words("of"), number("value"), number("σ"), words(""), number("value/σ"), words("")];
-    Table::new(caption, columns).rows(parameters.map(|parameter| {
-        let [value, deviation, unit] = estimate(report, parameter);
-        let name = match &parameter.iso {
-            Some(iso) => format!("{} ({iso})", parameter.name),
-            None => parameter.name.clone(),
-        };
-        let significance = fixed(significance(parameter).min(9999.0), 1);
-        let remark = if parameter.prior_dominated { "prior-dominated" } else { "" };
-        let frame = parameter.frame_name.clone().unwrap_or_default();
-        [name, frame, value, deviation, unit, significance, remark.to_owned()]
-    }))
+    Table::new("Others act as these in every configuration", columns).rows(of_machine(report).map(
+        |parameter| {
+            let [value, deviation, unit] = estimate(report, parameter);
+            let Written { name, .. } = parameter.as_written();
+            let name = match &parameter.iso {
+                Some(iso) if name == parameter.name => format!("{name} ({iso})"),
+                _ => name,
+            };
+            let significance = fixed(significance(parameter).min(9999.0), 1);
+            let remark = if parameter.prior_dominated { "prior-dominated" } else { "" };
+            let frame = parameter.frame_name.clone().unwrap_or_default();
+            [name, frame, value, deviation, unit, significance, remark.to_owned()]
+        },
+    ))
 }
 
-/// Lists errors that are fixed at zero because the data determine them poorly.
+/// Lists errors that the data determine poorly.
 fn poorly_determined(report: &Report) -> Option<String> {
     let all = report.weakly_determined.iter().map(|one| {
         let (factor, unit) = angle_in_mrad(one.unit);
@@ -74,7 +81,7 @@ fn poorly_determined(report: &Report) -> Option<String> {
     });
     (!report.weakly_determined.is_empty()).then(|| {
         format!(
-            "Poorly determined by these data; fixed at zero and not written: {}. In brackets the \
+            "Poorly determined by these data, so that the expectation counts (`{PRIOR}`): {}. In brackets the \
              standard deviation from the data, which is more than half of the expected one. Other \
              configurations, a target farther from the axes or a better instrument determine them: \
              `abbe plan {}` predicts how well.",
@@ -119,29 +126,21 @@ fn number_error(name: &str, value: f64, standard_deviation: f64, unit: &'static 
 
 /// States the magnitude of a source.
 fn magnitude(found: &Magnitude) -> String {
-    let Magnitude { source, declared, declared_deviation, value, standard_deviation, stands_for, .. } = found;
+    let Magnitude { source, declared, declared_deviation, value, standard_deviation, sum, .. } = found;
     let deviation = declared_deviation.map(|deviation| format!(" ± {}", digits(deviation, 2)));
     let before = digits(*declared, 3) + &deviation.unwrap_or_default();
     let Some(deviation) = standard_deviation.map(|deviation| digits(deviation, 2)) else {
-        return format!(
-            "the magnitude of {source} is indistinguishable from other errors in these data; in the \
-             spec: {before}"
-        );
+        return format!("the magnitude of {source} has no effect of its own; in the spec: {before}");
     };
-    if found.prior_dominated {
-        return format!(
-            "the magnitude of {source} is {} ± {deviation}, which these data determine less well than \
-             the spec: {before}",
-            digits(*value, 3)
-        );
-    }
-    let combined = (!stands_for.is_empty()).then(|| {
-        let all = [&[(source.clone(), 1.0)], &stands_for[..]].concat();
-        format!("; these data determine the combination {} only", combination(&all))
+    let less =
+        if found.prior_dominated { ", which these data determine less well than the spec" } else { "" };
+    let of_sum = sum.as_ref().map(|sum| {
+        let deviation = digits(sum.standard_deviation, 2);
+        format!("; they determine {} = {} ± {deviation}", combination(&sum.of), digits(sum.value, 4))
     });
     format!(
-        "the magnitude of {source} is {} ± {deviation} (in the spec: {before}){}",
+        "the magnitude of {source} is {} ± {deviation}{less} (in the spec: {before}){}",
         digits(*value, 4),
-        combined.unwrap_or_default()
+        of_sum.unwrap_or_default()
     )
 }

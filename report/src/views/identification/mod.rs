@@ -4,9 +4,10 @@ mod accuracy;
 mod answer;
 mod errors;
 mod indistinguishable;
+mod places;
 
 use abbe_metrology::data::Map;
-use abbe_metrology::identify::{Kind, Report, Sizes};
+use abbe_metrology::identify::{Report, Sizes};
 use abbe_spec::Spec;
 use abbe_study::number::{digits, error_unit, fixed};
 
@@ -15,8 +16,9 @@ use crate::document::{Card, Document, Section};
 use crate::figures::residuals::{ErrorNames, Residual, scenes};
 use accuracy::{accuracy, profiles, terms};
 use answer::{answer, headline};
-use errors::{estimates, machine};
+use errors::machine;
 pub(super) use indistinguishable::indistinguishable;
+use places::places;
 
 /// Describes an identification; `spec` and `map` are those of the job.
 pub fn identification(spec: &Spec, map: &Map, report: &Report) -> Document {
@@ -90,8 +92,7 @@ fn figures(spec: &Spec, report: &Report) -> Vec<Section> {
 
 /// Lists the placement of the machine and of what is mounted on its tool.
 fn placement(report: &Report) -> Section {
-    let placed = report.parameters.iter().filter(|parameter| parameter.kind != Kind::Machine);
-    let table = estimates(report, "", placed);
+    let table = places(report);
     let words = match table.rows.is_empty() {
         true => "The placement of the machine and of its tool is fixed to the values of the map.",
         false => {

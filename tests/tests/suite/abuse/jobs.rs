@@ -94,7 +94,7 @@ pub(crate) fn of_data(machine: &Machine, map: &Map, data: &Path, asked: Asked) -
             let data = Data::read(data, &map)?;
             let settings = Settings {
                 loss,
-                prior: Prior::Share(0.01),
+                prior: Prior::default(),
                 folds: 4,
                 time: None,
                 points: true,
