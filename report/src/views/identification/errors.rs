@@ -6,8 +6,8 @@ use abbe_study::number::{digits, fixed};
 
 use super::answer::{estimate, of_machine, significance};
 use super::indistinguishable::combination;
-use crate::document::{Section, Table, joined, number, words};
-use crate::views::shared::angle_in_mrad;
+use crate::document::{Section, Table, joined};
+use crate::unit::angle_in_mrad;
 
 /// Number of alternatives in a sentence.
 const SHOWN: usize = 3;
@@ -49,8 +49,7 @@ pub(super) fn estimates<'r>(
     caption: &str,
     parameters: impl Iterator<Item = &'r Parameter>,
 ) -> Table {
-    let columns =
-        [words("error"), words("of"), number("value"), number("σ"), words(""), number("value/σ"), words("")];
+    let columns = ["error", "of", ">value", ">σ", "", ">value/σ", ""];
     Table::new(caption, columns).rows(parameters.map(|parameter| {
         let [value, deviation, unit] = estimate(report, parameter);
         let name = match &parameter.iso {
