@@ -64,16 +64,6 @@ impl Real for Array {
     }
 
     #[inline(always)]
-    fn times_plus(self, b: Self, c: Self) -> Self {
-        self * b + c
-    }
-
-    #[inline(always)]
-    fn times_from(self, b: Self, c: Self) -> Self {
-        c - self * b
-    }
-
-    #[inline(always)]
     fn xor(self, other: Self) -> Self {
         self.zip(other, Real::xor)
     }
