@@ -11,7 +11,7 @@ use super::search::Search;
 use super::target_search::{AT_LIMIT, Problem, REACHED};
 use super::{ReachError, Target};
 use crate::sampling;
-use abbe_core::{Error, Manipulator, Pose, Quantity, Variable, VariableKind, checks, deviation};
+use abbe_core::{Manipulator, Pose, Quantity, Variable, VariableKind, checks, deviation};
 
 /// Largest difference of two solutions that count as one, in rad or arm lengths.
 const SAME: f64 = 1e-6;
