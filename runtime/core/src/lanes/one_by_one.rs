@@ -122,11 +122,13 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
     /// Returns the results of a function without the margin. Manipulators need not have functions
     /// without results.
     fn evaluated(&self, function: Function, third: &[f64]) -> Result<Vec<f64>, Error> {
-        let arrays = function.signature().results.iter();
+        let signature = function.signature();
+        let arrays = signature.results.iter();
         let mut values: Vec<Vec<f64>> = arrays.map(|array| vec![0.0; array.len(self.description)]).collect();
         let mut results: Vec<&mut [f64]> = values.iter_mut().map(Vec::as_mut_slice).collect();
         if results.iter().any(|result| !result.is_empty()) {
-            self.manipulator.evaluate(function, &[self.q, self.s, third], &mut results)?;
+            let given = &[self.q, self.s, third][..signature.arguments.len()];
+            self.manipulator.evaluate(function, given, &mut results)?;
         }
         Ok(values.concat())
     }
