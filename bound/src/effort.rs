@@ -28,6 +28,9 @@ impl Default for Effort {
     }
 }
 
+/// Caller of a search, which ends where this returns `false`.
+pub type Watch<'w> = dyn FnMut(&Progress) -> bool + 'w;
+
 /// Progress of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {

@@ -6,7 +6,7 @@ use abbe_spec::expr::Symbol;
 
 use crate::convex::Convex;
 use crate::corners::Corners;
-use crate::effort::{Effort, Progress};
+use crate::effort::{Effort, Watch};
 use crate::moving::{MOST_MOVING, Moving};
 use crate::period;
 use crate::problem::Problem;
@@ -27,7 +27,7 @@ pub fn largest(
     moving: &[Moving],
     fixed: &dyn Fn(Symbol) -> f64,
     effort: &Effort,
-    watch: &mut dyn FnMut(&Progress) -> bool,
+    watch: &mut Watch<'_>,
 ) -> Bound {
     let node = magnitude.node;
     if graph.value(node) == Some(0.0) {

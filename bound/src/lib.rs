@@ -55,7 +55,7 @@ mod unknowns;
 mod vertex;
 
 pub use apart::{Limits, limits};
-pub use effort::{Effort, Progress};
+pub use effort::{Effort, Progress, Watch};
 pub use largest::largest;
 pub use moving::{MOST_MOVING, Moving};
 pub use search::Bound;

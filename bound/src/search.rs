@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::corners::Corners;
-use crate::effort::{Effort, Progress};
+use crate::effort::{Effort, Progress, Watch};
 use crate::local_search::{ascend, highest};
 use crate::problem::{Point, Problem};
 use crate::queue::Queue;
@@ -42,7 +42,7 @@ pub(crate) struct Search {
 }
 
 impl Search {
-    pub(crate) fn run<const N: usize>(&self, watch: &mut dyn FnMut(&Progress) -> bool) -> Bound {
+    pub(crate) fn run<const N: usize>(&self, watch: &mut Watch<'_>) -> Bound {
         let mut best = highest::<N>(&self.problem);
         let whole = SearchBox {
             low: self.problem.domain.iter().map(|range| range[0]).collect(),

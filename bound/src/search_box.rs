@@ -265,17 +265,22 @@ fn zero_of<const N: usize>(slope: &Affine<N>, name: usize) -> Option<[f64; 2]> {
     (middle.is_finite() && half.is_finite() && (from > -1.0 || to < 1.0)).then_some([from, to])
 }
 
+/// Returns the centre of a box, and upper bounds of the half widths.
+pub(crate) fn centres(low: &[f64], high: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let centres: Vec<f64> = low.iter().zip(high).map(|(a, b)| 0.5 * a + 0.5 * b).collect();
+    let ends = low.iter().zip(high).zip(&centres);
+    let halves = ends.map(|((low, high), centre)| match low == high {
+        true => 0.0,
+        false => (high - centre).max(centre - low).next_up(),
+    });
+    let halves = halves.collect();
+    (centres, halves)
+}
+
 impl SearchBox {
     /// Returns the centre, and upper bounds of the half widths.
     pub(crate) fn centres(&self) -> (Vec<f64>, Vec<f64>) {
-        let centres: Vec<f64> = self.low.iter().zip(&self.high).map(|(a, b)| 0.5 * a + 0.5 * b).collect();
-        let ends = self.low.iter().zip(&self.high).zip(&centres);
-        let halves = ends.map(|((low, high), centre)| match low == high {
-            true => 0.0,
-            false => (high - centre).max(centre - low).next_up(),
-        });
-        let halves = halves.collect();
-        (centres, halves)
+        centres(&self.low, &self.high)
     }
 
     /// Returns the widest name with a positive width among some.

@@ -6,10 +6,11 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::affine::{Affine, above};
-use crate::effort::{Effort, Progress};
+use crate::effort::{Effort, Progress, Watch};
 use crate::moving::{MOST_MOVING, Moving};
 use crate::period;
 use crate::queue::Queue;
+use crate::search_box::centres;
 use crate::tape::Tape;
 
 /// Number of boxes bisected in a round, for any number of threads.
@@ -67,7 +68,7 @@ pub fn singular_value(
     moving: &[Moving],
     fixed: &dyn Fn(Symbol) -> f64,
     effort: &Effort,
-    watch: &mut dyn FnMut(&Progress) -> bool,
+    watch: &mut Watch<'_>,
 ) -> Singular {
     let entries = rows.concat();
     let depends = graph.symbols(&entries);
@@ -136,7 +137,7 @@ struct Look {
 }
 
 impl Search {
-    fn run<const N: usize>(&self, watch: &mut dyn FnMut(&Progress) -> bool) -> Singular {
+    fn run<const N: usize>(&self, watch: &mut Watch<'_>) -> Singular {
         let [low, high] = [0, 1].map(|end| self.domain.iter().map(|range| range[end]).collect::<Vec<_>>());
         // The search minimizes the signed value.
         let (mut found, mut at, mut boxes) = (f64::INFINITY, low.clone(), 0);
@@ -232,12 +233,7 @@ impl Search {
     }
 
     fn look<const N: usize>(&self, registers: &mut Vec<Affine<N>>, candidate: &Candidate) -> Look {
-        let centres: Vec<f64> =
-            candidate.low.iter().zip(&candidate.high).map(|(a, b)| 0.5 * a + 0.5 * b).collect();
-        let halves = candidate.low.iter().zip(&candidate.high).zip(&centres).map(|((low, high), centre)| {
-            if low == high { 0.0 } else { (high - centre).max(centre - low).next_up() }
-        });
-        let halves: Vec<f64> = halves.collect();
+        let (centres, halves) = centres(&candidate.low, &candidate.high);
         let longest = || (0..centres.len()).max_by(|i, j| halves[*i].total_cmp(&halves[*j])).unwrap_or(0);
         let (forms, _) = self.matrix.evaluate(registers, &centres, &halves);
         let count = forms.len() / self.rows;

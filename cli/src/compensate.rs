@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 use abbe_metrology::compensate::options::TOLERANCE;
 use abbe_metrology::compensate::{self, Report, check_poses};
 use abbe_metrology::data::{Csv, Data, Map};
-use abbe_report::{Provenance, views};
+use abbe_report::views;
 use abbe_spec::Spec;
-use abbe_study::explore::Explore;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Common, Page, Subject, length};
@@ -82,12 +81,9 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
     let evaluator = job.machine.evaluator(true);
     let document = || views::compensation(&job.machine.spec, evaluator.description(), &job.map, &report);
     let page = page.map(|file| {
-        let spec = &job.machine.spec;
         let map = arguments.map.as_ref().map(|_| &job.map);
-        let files = [("commands", &arguments.data)];
-        let provenance = Provenance::new(spec, map, files)?;
-        let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
-        file.fill(&document().page(&provenance, Some(&live)))
+        let (files, residuals) = ([("commands", &arguments.data)], report.residuals());
+        file.fill(&document().measured_page(&job.machine, map, files, residuals, &mut Console::default())?)
     });
     let printed = outputs.finish(commands.into_iter().chain(page.transpose()?))?;
     let next = match out {

@@ -10,9 +10,8 @@ use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};
 use abbe_metrology::identify::{self, Family, Harmonics, Prior, Report, Settings};
 use abbe_report::text::{Detail, wrapped};
-use abbe_report::{Provenance, views};
+use abbe_report::views;
 use abbe_spec::Spec;
-use abbe_study::explore::Explore;
 use clap::Args;
 
 use crate::arguments::{Measured, Page, Running, Showing, Subject, Writing, duration, named, whole};
@@ -124,10 +123,8 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     let page = page.map(|file| {
         let test = arguments.test.iter().map(|file| ("test", file));
         let files = [("measurements", &arguments.measured.data)].into_iter().chain(test);
-        let spec = &job.machine.spec;
-        let provenance = Provenance::new(spec, Some(&job.map), files)?;
-        let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
-        file.fill(&document().page(&provenance, Some(&live)))
+        let (map, residuals) = (Some(&job.map), report.residuals());
+        file.fill(&document().measured_page(&job.machine, map, files, residuals, &mut Console::default())?)
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::measure::{self, Report};
-use abbe_report::{Provenance, views};
+use abbe_report::views;
 use abbe_spec::Spec;
-use abbe_study::explore::Explore;
 use clap::{Args, ValueEnum};
 
 use crate::arguments::{Common, Dated, Measured, Subject};
@@ -66,17 +65,16 @@ pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
             Some((outputs.file(&folder.join("errors.csv"))?, outputs.file(&folder.join(abbe_report::PAGE))?))
         }
     };
-    let (spec, map) = (job.machine.spec.clone(), job.map.clone());
+    let (spec, map) = (&job.machine.spec.clone(), &job.map.clone());
     let Some((errors, page)) = files else {
-        return outcome(arguments, &spec, &map, &job.figures(&mut Console::default())?);
+        return outcome(arguments, spec, map, &job.figures(&mut Console::default())?);
     };
     let report = job.run(&mut Console::default())?;
     let files = [("measurements", &arguments.measured.data)];
-    let provenance = Provenance::new(&spec, Some(&job.map), files)?;
-    let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
-    let text = views::measurement(&spec, &map, &report).page(&provenance, Some(&live));
+    let (document, residuals) = (views::measurement(spec, map, &report), report.residuals());
+    let text = document.measured_page(&job.machine, Some(map), files, residuals, &mut Console::default())?;
     outputs.finish([errors.fill(&report.table().csv())?, page.fill(&text)?])?;
-    outcome(arguments, &spec, &map, &report)
+    outcome(arguments, spec, map, &report)
 }
 
 fn outcome(arguments: &Measure, spec: &Spec, map: &Map, report: &Report) -> Result<Outcome, Failure> {

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use abbe_metrology::data::Map;
 use abbe_metrology::monitor::options::FALSE_ALARM;
 use abbe_metrology::monitor::{self, Checks, Settings};
-use abbe_report::{Provenance, views};
-use abbe_study::explore::Explore;
+use abbe_report::views;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Common, Page, Subject, length, whole};
@@ -68,11 +67,9 @@ pub(crate) fn run(arguments: &Monitor) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let document = || views::monitoring(&job.machine.spec, &job.map, &report);
     let page = page.map(|file| {
-        let (spec, files) = (&job.machine.spec, arguments.data.iter().map(|file| ("check", file)));
-        let provenance = Provenance::new(spec, Some(&job.map), files)?;
-        let residuals = report.residuals.clone();
-        let live = Explore::measured(job.machine.clone(), residuals).run(&mut Console::default())?;
-        file.fill(&document().page(&provenance, Some(&live)))
+        let files = arguments.data.iter().map(|file| ("check", file));
+        let (map, residuals) = (Some(&job.map), report.residuals.clone());
+        file.fill(&document().measured_page(&job.machine, map, files, residuals, &mut Console::default())?)
     });
     let printed = outputs.finish(page.transpose()?)?;
     let passed = !arguments.check || report.alarm.is_none();

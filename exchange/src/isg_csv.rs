@@ -96,8 +96,8 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
     let format = "volumetric compensation tables (ISG CSV)".to_owned();
     let files = vec![ExportedFile { name: format!("{}.volcomp.csv", machine.spec.name), text }];
     let corrected = |q: &[f64], _: &[f64]| tables.corrected(slides, &rotary, q, mm);
-    let sign = if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 };
-    let report = ExportReport::for_commands(machine, format, files, corrected, sign).map_err(evaluated)?;
+    let report =
+        ExportReport::for_commands(machine, format, files, corrected, largest.1).map_err(evaluated)?;
     // A control that has tables of the axes must not have their poses as well.
     let placed = match rotary.is_empty() {
         true => Kinematics::new(machine, &axes, false)

@@ -84,8 +84,8 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
     ));
     left_out.extend(axes.errors_beyond_own_axis(machine, &[]));
     let format = "rows of KinematicsComp".to_owned();
-    let sign = if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 };
-    let report = ExportReport::for_commands(machine, format, files, corrected, sign).map_err(evaluated)?;
+    let report =
+        ExportReport::for_commands(machine, format, files, corrected, largest.1).map_err(evaluated)?;
     Ok(ExportReport { left_out, turned, ..report })
 }
 

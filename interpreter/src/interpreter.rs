@@ -143,7 +143,9 @@ impl Interpreter {
     ///
     /// Returns the errors of [`Manipulator::effects`].
     pub fn real_pose(&self, q: &[f64], s: &[f64], u: &[f64]) -> Result<Pose, Error> {
-        Ok(pose_of(&self.run(Function::RealPose, &[q, s, u])?))
+        let mut pose = Pose::IDENTITY;
+        self.evaluate(Function::RealPose, &[q, s, u], &mut [pose.0.as_flattened_mut()])?;
+        Ok(pose)
     }
 
     /// Evaluates a function; only its arguments are checked.
@@ -240,9 +242,4 @@ fn evaluated<'a>(tape: &Tape, arguments: impl Iterator<Item = &'a f64>) -> Vec<f
     }
     block.run(tape);
     tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect()
-}
-
-/// Returns the pose in the first twelve numbers.
-fn pose_of(values: &[f64]) -> Pose {
-    Pose(std::array::from_fn(|column| std::array::from_fn(|row| values[3 * column + row])))
 }

@@ -14,23 +14,7 @@ use crate::plan::{Choice, Plan, Sets};
 use crate::positioning::Positioning;
 use crate::simulate::{Places, Simulate};
 
-impl Reads for Map {
-    fn files(&self) -> Vec<PathBuf> {
-        self.files.clone()
-    }
-}
-
-impl Reads for Data {
-    fn files(&self) -> Vec<PathBuf> {
-        self.files.clone()
-    }
-}
-
-impl Reads for Sets {
-    fn files(&self) -> Vec<PathBuf> {
-        self.files.clone()
-    }
-}
+abbe_study::reads!(files of Map, Data, Sets);
 
 impl Reads for Checks {
     fn files(&self) -> Vec<PathBuf> {

@@ -3,7 +3,7 @@
 use abbe_study::generate::{Generate, Language, SourceFile};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::job::run;
 use crate::machine::Machine;
@@ -48,10 +48,8 @@ impl Machine {
         only: Option<String>,
         name: Option<String>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let files = PyDict::new(py);
-        let generated = self.generated(py, language, real, only, name)?;
-        generated.into_iter().try_for_each(|file| files.set_item(file.name, file.text))?;
-        Ok(files)
+        let files = self.generated(py, language, real, only, name)?;
+        files.into_iter().map(|file| (file.name, file.text)).into_py_dict(py)
     }
 }
 

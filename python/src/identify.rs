@@ -6,8 +6,7 @@ use std::sync::Arc;
 use abbe_metrology::data::Data;
 use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};
 use abbe_metrology::identify::{Family, Identify, Prior, Settings};
-use abbe_report::{Provenance, views};
-use abbe_study::explore::Explore;
+use abbe_report::views;
 use abbe_study::options::share;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -90,9 +89,8 @@ impl Machine {
             let Identify { machine, map, .. } = &job;
             let test = unseen.iter().map(|test| ("test", test.source()));
             let files = [("measurements", measured.source())].into_iter().chain(test);
-            let provenance = Provenance::new(&machine.spec, Some(map), files)?;
-            let live = Explore::measured(machine.clone(), report.residuals()).run(&mut ())?;
-            let page = views::identification(&machine.spec, map, &report).page(&provenance, Some(&live));
+            let document = views::identification(&machine.spec, map, &report);
+            let page = document.measured_page(machine, Some(map), files, report.residuals(), &mut ())?;
             let mut pages: Pages = vec![("report.html".into(), page)];
             if nominal {
                 let spec = report.found.identified_spec(&machine.spec, &spec_text.clone()?, "found.toml")?;

@@ -10,7 +10,7 @@ use abbe_study::analyze::parts;
 use abbe_study::{Changes, changed_text};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyString, PyTuple};
+use pyo3::types::{IntoPyDict, PyBool, PyDict, PyString, PyTuple};
 
 use crate::failure::{guarded, spec_error};
 use crate::layout::Layout;
@@ -269,10 +269,8 @@ impl Machine {
     /// Structural parameters by name, in coherent units (`units`): the length unit, kg, s, rad, K.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let values = PyDict::new(py);
-        let mut parameters = self.interpreter.description().parameters.iter();
-        parameters.try_for_each(|one| values.set_item(&*one.name, one.nominal))?;
-        Ok(values)
+        let parameters = self.interpreter.description().parameters.iter();
+        parameters.map(|one| (&*one.name, one.nominal)).into_py_dict(py)
     }
 
     /// Units of `parameters` and `inputs` by name: "mm", "kg", "mm*kg/s^2" …; "" for pure numbers
@@ -283,19 +281,16 @@ impl Machine {
     /// 'mm'
     #[getter]
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (units, spec) = (PyDict::new(py), &self.machine.spec);
-        spec.parameters.iter().try_for_each(|one| units.set_item(&one.name, &one.unit))?;
-        spec.inputs.iter().try_for_each(|one| units.set_item(&one.name, &one.unit))?;
-        Ok(units)
+        let spec = &self.machine.spec;
+        let parameters = spec.parameters.iter().map(|one| (&one.name, &one.unit));
+        parameters.chain(spec.inputs.iter().map(|one| (&one.name, &one.unit))).into_py_dict(py)
     }
 
     /// Nominal inputs by name, in coherent units (`units`).
     #[getter]
     fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let values = PyDict::new(py);
-        let mut inputs = self.interpreter.description().inputs.iter();
-        inputs.try_for_each(|one| values.set_item(&*one.name, one.nominal))?;
-        Ok(values)
+        let inputs = self.interpreter.description().inputs.iter();
+        inputs.map(|one| (&*one.name, one.nominal)).into_py_dict(py)
     }
 
     /// Names of the enabled error sources, in the order of `source_displacements`.

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use abbe_metrology::data::Data;
 use abbe_metrology::measure::Measure;
-use abbe_report::{Provenance, views};
-use abbe_study::explore::Explore;
+use abbe_report::views;
 use pyo3::prelude::*;
 
 use crate::job::run;
@@ -55,10 +54,9 @@ impl Machine {
         let document = move |report: &_| views::measurement(&spec, &map, report);
         let found = Report::from_document("measure", &report, notes, document)?.with_rows(report.table());
         let found = found.with_pages(move || {
-            let spec = &job.machine.spec;
-            let provenance = Provenance::new(spec, Some(&job.map), [("measurements", measured.source())])?;
-            let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut ())?;
-            let page = views::measurement(spec, &job.map, &report).page(&provenance, Some(&live));
+            let document = views::measurement(&job.machine.spec, &job.map, &report);
+            let (files, residuals) = ([("measurements", measured.source())], report.residuals());
+            let page = document.measured_page(&job.machine, Some(&job.map), files, residuals, &mut ())?;
             Ok(vec![("report.html".into(), page), ("errors.csv".into(), report.table().csv())])
         });
         found.create(py)

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use abbe_metrology::monitor::options::FALSE_ALARM;
 use abbe_metrology::monitor::{Checks, Monitor, Settings};
-use abbe_report::{Provenance, views};
-use abbe_study::explore::Explore;
+use abbe_report::views;
 use pyo3::prelude::*;
 
 use crate::job::run;
@@ -54,10 +53,9 @@ impl Machine {
         let document = move |report: &_| views::monitoring(&spec, &map, report);
         let found = Report::from_document("monitor", &report, notes, document)?.with_pages(move || {
             let files = measured.iter().map(|check| ("check", check.source()));
-            let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files)?;
-            let live = Explore::measured(job.machine.clone(), report.residuals.clone()).run(&mut ())?;
             let document = views::monitoring(&job.machine.spec, &job.map, &report);
-            let page = document.page(&provenance, Some(&live));
+            let (map, residuals) = (Some(&job.map), report.residuals.clone());
+            let page = document.measured_page(&job.machine, map, files, residuals, &mut ())?;
             Ok(vec![("report.html".into(), page)])
         });
         found.create(py)

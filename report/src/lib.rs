@@ -25,5 +25,5 @@ pub mod views;
 pub use document::{Document, Worded, plain};
 pub use explore::explore;
 pub use gallery::{INDEX, gallery};
-pub use html::{Provenance, notebook};
+pub use html::notebook;
 pub use pictures::{File, PAGE, Picture, analysis, budget, figures};

@@ -7,8 +7,9 @@ use abbe_study::study_file::Content;
 
 use crate::document::Figure;
 use crate::figures::{self, NamedFigure};
+use crate::html::Provenance;
 use crate::scene::Scene;
-use crate::{Document, Provenance, svg, views};
+use crate::{Document, svg, views};
 
 /// Name of the page.
 pub const PAGE: &str = "report.html";

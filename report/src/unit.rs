@@ -13,6 +13,11 @@ pub(crate) fn display_unit(report: &Report, measurand: Measurand) -> (f64, &'sta
     }
 }
 
+/// Returns the factor and the unit in which a number is shown: mrad for rad.
+pub(crate) fn angle_in_mrad(unit: &str) -> (f64, &str) {
+    if unit == "rad" { (1e3, "mrad") } else { (1.0, unit) }
+}
+
 /// Returns the names of the three rows.
 pub(crate) fn row_names(report: &Report, measurand: Measurand) -> [&'static str; 3] {
     match measurand {

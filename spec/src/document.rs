@@ -417,9 +417,13 @@ impl<'d> Item<'d> {
     /// Reads a constant of this dimension in coherent units, whose bare lengths are in
     /// [`Document::length`].
     pub fn quantity(&self, dimension: Dimension) -> Option<f64> {
-        let (scope, what) = (Scope::new(self.document.length), format!("`{}`", self.key));
-        let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
-        self.constant(&scope, entry).map(|(value, _)| value)
+        self.amount(&Scope::new(self.document.length), dimension, &format!("`{}`", self.key))
+    }
+
+    /// Reads a constant of this dimension in coherent units; mistakes call it `what`.
+    pub fn amount(&self, scope: &Scope, dimension: Dimension, what: &str) -> Option<f64> {
+        let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
+        self.constant(scope, entry).map(|(value, _)| value)
     }
 
     /// Reads an array of `N` such constants.

@@ -172,12 +172,7 @@ impl Changes {
             match symbol {
                 Symbol::Parameter(i) => spec.parameters[i].value = value,
                 Symbol::Input(i) => spec.inputs[i].value = value,
-                Symbol::Variable(_)
-                | Symbol::Passive(_)
-                | Symbol::Error(_)
-                | Symbol::Magnitude(_)
-                | Symbol::Target(_)
-                | Symbol::Local(_) => {}
+                _ => {}
             }
         }
         let wholes: Vec<usize> = (0..spec.sources.len()).map(|k| spec.whole(k)).collect();

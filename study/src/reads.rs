@@ -36,12 +36,6 @@ impl Reads for Machine {
     }
 }
 
-impl Reads for Study {
-    fn files(&self) -> Vec<PathBuf> {
-        self.files.clone()
-    }
-}
-
 impl<T: Reads + Clone> Reads for Cow<'_, T> {
     fn files(&self) -> Vec<PathBuf> {
         self.as_ref().files()
@@ -55,9 +49,17 @@ impl<T: Reads> Reads for Option<T> {
 }
 
 /// Implements [`Reads`] for jobs: each names the fields that were read from files, then all others,
-/// so that a new field does not compile until its files are considered.
+/// so that a new field does not compile until its files are considered. Or implements it for types
+/// that have a list `files`.
 #[macro_export]
 macro_rules! reads {
+    (files of $($own:ty),+) => {$(
+        impl $crate::Reads for $own {
+            fn files(&self) -> Vec<std::path::PathBuf> {
+                self.files.clone()
+            }
+        }
+    )+};
     ($($job:ty: $($read:ident)+, without $($other:ident)*;)+) => {$(
         impl $crate::Reads for $job {
             fn files(&self) -> Vec<std::path::PathBuf> {
@@ -75,6 +77,8 @@ reads! {
     Jacobian: machine, without q;
     Import: file, without format round_angles;
 }
+
+reads!(files of Study);
 
 impl Reads for PathBuf {
     fn files(&self) -> Vec<PathBuf> {

@@ -203,19 +203,11 @@ impl<'a> Kernel for Chunk<'_, 'a> {
             block.evaluate(first..range.end.min(first + BLOCK))?;
             let before = indices.len();
             indices.extend_from_slice(&block.indices);
-            let displacements = &block.displacements;
-            position.add_sources(displacements, before);
-            for tile in 0..displacements.tiles() {
-                position.add_sums(&self.sweep.position, displacements, tile, before, |place| indices[place]);
-            }
+            position.add(&self.sweep.position, &block.displacements, before, |place| indices[place]);
             let before = oriented.len();
             let (kept, displacements) = block.oriented();
             oriented.extend_from_slice(&kept);
-            orientation.add_sources(&displacements, before);
-            for tile in 0..displacements.tiles() {
-                orientation
-                    .add_sums(&self.sweep.orientation, &displacements, tile, before, |place| oriented[place]);
-            }
+            orientation.add(&self.sweep.orientation, &displacements, before, |place| oriented[place]);
             block.unreachable.drain(..).for_each(|unreachable| part.unreachable.add(unreachable));
             if self.rows {
                 let size = BLOCK.min(range.len());

@@ -94,9 +94,7 @@ impl Combined {
             self.ellipsoid = other.ellipsoid;
         }
     }
-}
 
-impl Combined {
     /// Returns the indices of the configurations in the result.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
         let radii = [self.repeatable_radius, self.random_radius, self.radius];

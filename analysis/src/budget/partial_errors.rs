@@ -152,10 +152,16 @@ impl<R: Register> ErrorsAccumulator<R> {
         }
     }
 
-    /// Adds the errors of each source in a block, whose first configuration has the place `before`
-    /// in its chunk.
+    /// Adds a block, whose first configuration has the place `before` in its chunk. `index` maps
+    /// places to indices of configurations.
     #[inline(always)]
-    pub(super) fn add_sources(&mut self, displacements: &Tiles, before: usize) {
+    pub(super) fn add(
+        &mut self,
+        initial: &InitialErrors,
+        displacements: &Tiles,
+        before: usize,
+        index: impl Fn(usize) -> usize,
+    ) {
         for k in 0..self.singles.len() {
             let first = 6 * k + self.measurand.first();
             for tile in 0..displacements.tiles() {
@@ -165,27 +171,16 @@ impl<R: Register> ErrorsAccumulator<R> {
                 self.singles[k].add(here, place, weight);
             }
         }
-    }
-
-    /// Adds the combined errors of a tile of a block. `index` maps places to indices of
-    /// configurations.
-    #[inline(always)]
-    pub(super) fn add_sums(
-        &mut self,
-        initial: &InitialErrors,
-        displacements: &Tiles,
-        tile: usize,
-        before: usize,
-        index: impl Fn(usize) -> usize,
-    ) {
-        let (place, weight) = (place(before, tile), weight(displacements.count(), tile));
-        let rows = displacements.tile::<R>(tile);
-        // Without sources there are no rows.
-        let rows = rows.get(self.measurand.first()..).unwrap_or_default();
-        let sums = Sums::new(&initial.kinds, rows, place, weight);
-        self.all.add(&sums, rows, &index);
-        if let Some(least_likely) = &mut self.least_likely {
-            least_likely.add(&sums, index);
+        for tile in 0..displacements.tiles() {
+            let (place, weight) = (place(before, tile), weight(displacements.count(), tile));
+            let rows = displacements.tile::<R>(tile);
+            // Without sources there are no rows.
+            let rows = rows.get(self.measurand.first()..).unwrap_or_default();
+            let sums = Sums::new(&initial.kinds, rows, place, weight);
+            self.all.add(&sums, rows, &index);
+            if let Some(least_likely) = &mut self.least_likely {
+                least_likely.add(&sums, &index);
+            }
         }
     }
 

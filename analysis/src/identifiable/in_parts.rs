@@ -28,7 +28,7 @@ use nalgebra::DMatrix;
 
 use super::{Identifiability, Measurement, Parts, identifiable, not_finite, singular_values};
 use crate::{Configuration, Unevaluated, sampling};
-use abbe_core::{Component, Error, Manipulator, Pose, Quantity};
+use abbe_core::{Component, Manipulator, Pose, Quantity, checks};
 
 /// Computes the same as [`identifiable`](super::identifiable()), part by part. The work and the
 /// rounding errors grow linearly with the length of the chain, not with its cube.
@@ -53,10 +53,7 @@ pub fn identifiable_in_parts(
         return identifiable(manipulator, configurations, measurement, base);
     }
     let frames = manipulator.description().frames.len();
-    if parts.transforms() != frames + 1 {
-        let (expected, found) = (frames + 1, parts.transforms());
-        return Err(at(None, Error::Count { quantity: Quantity::Pose, expected, found }));
-    }
+    checks::length(Quantity::Pose, [frames + 1, 1], parts.transforms()).map_err(|error| at(None, error))?;
     let mut transforms = vec![vec![Pose::IDENTITY; frames + 1]; configurations.len()];
     for (i, (Configuration { q, s, .. }, transforms)) in
         configurations.iter().zip(&mut transforms).enumerate()

@@ -5,7 +5,7 @@ use super::in_order::in_order;
 use super::{Row, Unevaluated};
 use crate::{Configuration, UnreachableSummary, Workspace};
 use abbe_core::lanes::Sweepable;
-use abbe_core::{Error, Quantity, checks};
+use abbe_core::{Quantity, checks};
 use abbe_kinematics::STREAM;
 
 /// Number of configurations evaluated at once: few enough for the displacements to stay in the
@@ -48,16 +48,12 @@ pub fn sweep(
 pub(crate) fn ready(manipulator: &dyn Sweepable, workspace: &dyn Workspace) -> Result<(), Unevaluated> {
     let description = manipulator.description();
     let Configuration { q, s, u } = workspace.home();
-    let at_home = |error| Unevaluated { configuration: None, error };
-    for (quantity, expected, found) in [
-        (Quantity::Variables, description.variables.len(), q.len()),
-        (Quantity::Parameters, description.parameters.len(), s.len()),
-        (Quantity::Inputs, description.inputs.len(), u.len()),
-    ] {
-        if expected != found {
-            return Err(at_home(Error::Count { quantity, expected, found }));
-        }
-    }
-    checks::finite(Quantity::Inputs, u).map_err(at_home)?;
-    checks::inputs(&description.inputs, u).map_err(at_home)
+    let fits = || {
+        checks::length(Quantity::Variables, [description.variables.len(), 1], q.len())?;
+        checks::length(Quantity::Parameters, [description.parameters.len(), 1], s.len())?;
+        checks::length(Quantity::Inputs, [description.inputs.len(), 1], u.len())?;
+        checks::finite(Quantity::Inputs, u)?;
+        checks::inputs(&description.inputs, u)
+    };
+    fits().map_err(|error| Unevaluated { configuration: None, error })
 }

@@ -20,4 +20,5 @@ pub use arena::Graph;
 pub use classes::Signed;
 pub(crate) use lower::in_programs;
 pub use node::{Node, Op};
+pub(crate) use vector::transposed;
 pub use vector::{Frame, Vector};

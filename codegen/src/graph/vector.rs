@@ -28,6 +28,11 @@ impl Frame {
     }
 }
 
+/// Returns the rows of a matrix given by its columns, or the reverse.
+pub(crate) fn transposed(columns: &[Vector; 3]) -> [Vector; 3] {
+    [0, 1, 2].map(|i: usize| columns.map(|column| column[i]))
+}
+
 impl Graph {
     /// Returns the identity.
     pub fn identity(&mut self) -> Frame {
@@ -62,6 +67,12 @@ impl Graph {
         self.add(sum, products[2])
     }
 
+    /// Returns `|a|`.
+    pub(crate) fn norm(&mut self, a: Vector) -> Node {
+        let square = self.dot(a, a);
+        self.sqrt(square)
+    }
+
     /// Returns `a × b`.
     pub fn cross(&mut self, a: Vector, b: Vector) -> Vector {
         std::array::from_fn(|i| {
@@ -89,9 +100,8 @@ impl Graph {
 
     /// Returns the inverse motion: `Rᵀ`, `−Rᵀ p`.
     pub fn inverse(&mut self, frame: &Frame) -> Frame {
-        let axes = [0, 1, 2].map(|i: usize| frame.axes.map(|axis| axis[i]));
         let back = frame.axes.map(|axis| self.dot(axis, frame.position));
-        Frame { axes, position: self.neg_vector(back) }
+        Frame { axes: transposed(&frame.axes), position: self.neg_vector(back) }
     }
 
     /// Returns a motion rotated about its own axis 0, 1 or 2; two columns change.

@@ -36,6 +36,8 @@ pub(super) trait Printer {
     const HAS_LESS: bool = true;
     /// The statement that ends a loop before its time.
     const LEAVE: &'static str = "break;";
+    /// The sign of negations.
+    const NOT: &'static str = "!";
     /// The sign of assignments, and the end of a statement.
     const ASSIGN: [&'static str; 2] = ["=", ";"];
     /// `true` if the language has `+=`.
@@ -62,7 +64,7 @@ pub(super) trait Printer {
 
     /// Returns the negation of a condition.
     fn negated(&self, condition: &str) -> String {
-        format!("!({condition})")
+        format!("{}({condition})", Self::NOT)
     }
 
     /// Returns an element of an array.

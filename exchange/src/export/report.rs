@@ -74,7 +74,8 @@ impl ExportReport {
     }
 
     /// Reports a format that corrects commands: compares the real pose of the tool at commands
-    /// corrected for a configuration and its inputs with the nominal one.
+    /// corrected for a configuration and its inputs with the nominal one. An empty `sign` says that
+    /// no number differs from 0.
     pub(crate) fn for_commands(
         machine: &RealMachine,
         format: String,
@@ -83,6 +84,7 @@ impl ExportReport {
         sign: String,
     ) -> Result<Self, Error> {
         let remains = machine.command_difference(|q, u| Ok(corrected(q, u)))?;
+        let sign = if sign.is_empty() { "All errors are 0.".to_owned() } else { sign };
         Ok(Self::new(machine, format, files, ["as commanded", "corrected"], remains, sign))
     }
 

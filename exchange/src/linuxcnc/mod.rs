@@ -146,8 +146,8 @@ pub fn write(machine: &mut RealMachine, nodes: usize, has_matrix: bool) -> Resul
         true => "matrix of matrixkins and compensation files of LinuxCNC".to_owned(),
         false => "compensation files of LinuxCNC".to_owned(),
     };
-    let sign = if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 };
-    let report = ExportReport::for_commands(machine, format, files, corrected, sign).map_err(evaluated)?;
+    let report =
+        ExportReport::for_commands(machine, format, files, corrected, largest.1).map_err(evaluated)?;
     let placed = Kinematics::new(machine, &axes, true)
         .and_then(|kinematics| kinematics.remains(corrected))
         .map_err(evaluated)?;

@@ -11,7 +11,7 @@ use super::search::Search;
 use super::target_search::{AT_LIMIT, Problem, REACHED};
 use super::{ReachError, Target};
 use crate::sampling;
-use abbe_core::{Error, Manipulator, Pose, Quantity, Variable, VariableKind, deviation};
+use abbe_core::{Manipulator, Pose, Quantity, Variable, VariableKind, checks, deviation};
 
 /// Largest difference of two solutions that count as one, in rad or arm lengths.
 const SAME: f64 = 1e-6;
@@ -67,9 +67,7 @@ impl<'a> InverseKinematics<'a> {
     pub fn solve(&self, start: &[f64], target: &Pose) -> Result<Vec<Vec<f64>>, ReachError> {
         let Problem { manipulator, ref s, ref free, .. } = self.problem;
         let one = || inverse(manipulator, s, start, free, &Target::Pose(*target));
-        if let Some(index) = start.iter().position(|value| !value.is_finite()) {
-            return Err(Error::NotFinite { quantity: Quantity::Variables, index }.into());
-        }
+        checks::finite(Quantity::Variables, start)?;
         if start.len() != free.len() || free.len() > 6 || !Target::Pose(*target).is_finite() {
             return one().map(|q| vec![q]);
         }

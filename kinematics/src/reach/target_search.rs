@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use super::{ReachError, SumLimits};
 use crate::sampling;
-use abbe_core::{Description, Error, Manipulator, Quantity, Variable, VariableKind};
+use abbe_core::{Description, Error, Manipulator, Quantity, Variable, VariableKind, checks};
 
 /// Residual at which a target counts as reached: lengths in arm lengths, angles in rad.
 pub(super) const REACHED: f64 = 1e-10;
@@ -119,10 +119,7 @@ impl<'a> Problem<'a> {
     ) -> Result<Self, ReachError> {
         let variables = &manipulator.description().variables;
         crate::configuration::in_range(free.iter().copied(), Quantity::Variables, variables.len())?;
-        if start.len() != variables.len() {
-            let (expected, found) = (variables.len(), start.len());
-            return Err(Error::Count { quantity: Quantity::Variables, expected, found }.into());
-        }
+        checks::length(Quantity::Variables, [variables.len(), 1], start.len())?;
         let arm = sampling::arm_length(manipulator, s)?;
         let mut free = free.to_vec();
         free.sort_unstable();

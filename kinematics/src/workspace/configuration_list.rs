@@ -4,7 +4,7 @@ use super::Workspace;
 use crate::Configuration;
 use crate::ReachError;
 use crate::SumLimits;
-use abbe_core::{Error, Manipulator, Quantity};
+use abbe_core::{Error, Manipulator, Quantity, checks};
 
 /// Workspace of a list of configurations, such as a path; see [`listed`].
 #[derive(Clone, Debug)]
@@ -24,15 +24,9 @@ pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>)
     let description = manipulator.description();
     let home = Configuration::home(description);
     for Configuration { q, s, u } in &configurations {
-        for (quantity, expected, found) in [
-            (Quantity::Variables, home.q.len(), q.len()),
-            (Quantity::Parameters, home.s.len(), s.len()),
-            (Quantity::Inputs, home.u.len(), u.len()),
-        ] {
-            if expected != found {
-                return Err(Error::Count { quantity, expected, found });
-            }
-        }
+        checks::length(Quantity::Variables, [home.q.len(), 1], q.len())?;
+        checks::length(Quantity::Parameters, [home.s.len(), 1], s.len())?;
+        checks::length(Quantity::Inputs, [home.u.len(), 1], u.len())?;
     }
     let limits = description.variables.iter().map(|variable| variable.limits).collect();
     let sums = SumLimits::new(description, &[]);

@@ -1,8 +1,10 @@
 //! Keys of a map.
 
 use abbe::identify::{INSTRUMENTS, InstrumentKind};
+use abbe_spec::keys::Then::{Needs, NeedsOne, Refuses};
 use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, Tables, Text};
-use abbe_spec::keys::{Rule, Then, When, words};
+use abbe_spec::keys::When::{Always, Has, Is, Lacks};
+use abbe_spec::keys::{Rule, words};
 
 use super::choices::{BASES, INTRINSIC_CHOICES, MOUNTS, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN};
 use super::target_frame::TARGET_FRAMES;
@@ -253,23 +255,19 @@ pub fn required_keys(kind: &InstrumentKind) -> Vec<&'static str> {
 pub fn rules() -> Vec<Rule> {
     let rule = |table, when, then| Rule { table, when, then };
     let mut rules = vec![
-        rule("the file", When::Always, Then::NeedsOne(FORMS.names().collect())),
+        rule("the file", Always, NeedsOne(FORMS.names().collect())),
         rule(
             "the file",
-            When::Lacks(vec!["instrument"]),
-            Then::Needs(vec!["data.uncertainty", "target[].columns", "target[].unit"]),
+            Lacks(vec!["instrument"]),
+            Needs(vec!["data.uncertainty", "target[].columns", "target[].unit"]),
         ),
-        rule("the file", When::Has("instrument"), Then::Needs(vec!["target[].name"])),
-        rule("the file", When::Has("instrument"), Then::Refuses(vec!["target[].columns", "target[].unit"])),
+        rule("the file", Has("instrument"), Needs(vec!["target[].name"])),
+        rule("the file", Has("instrument"), Refuses(vec!["target[].columns", "target[].unit"])),
+        rule("the file", Lacks(vec!["data.uncertainty"]), Needs(vec!["instrument[].uncertainty"])),
         rule(
             "the file",
-            When::Lacks(vec!["data.uncertainty"]),
-            Then::Needs(vec!["instrument[].uncertainty"]),
-        ),
-        rule(
-            "the file",
-            When::Has("pose"),
-            Then::Needs(vec![
+            Has("pose"),
+            Needs(vec![
                 "data.angle_uncertainty",
                 "placement.position",
                 "placement.quaternion",
@@ -277,32 +275,32 @@ pub fn rules() -> Vec<Rule> {
                 "placement[].quaternion",
             ]),
         ),
-        rule("the file", When::Always, Then::Needs(vec!["placement[].station"])),
+        rule("the file", Always, Needs(vec!["placement[].station"])),
         // A camera has the pose of the measured frame there, as `[pose]` has.
         rule(
             "the file",
-            When::Lacks(vec!["pose", "instrument"]),
-            Then::Needs(vec!["placement.targets", "placement[].targets"]),
+            Lacks(vec!["pose", "instrument"]),
+            Needs(vec!["placement.targets", "placement[].targets"]),
         ),
-        rule("[joints.NAME]", When::Lacks(vec!["value"]), Then::Needs(vec!["column", "unit"])),
+        rule("[joints.NAME]", Lacks(vec!["value"]), Needs(vec!["column", "unit"])),
         rule(
             "[inputs.NAME]",
-            When::Lacks(vec!["value", "approach", "gravity_moment"]),
-            Then::Needs(vec!["column", "unit"]),
+            Lacks(vec!["value", "approach", "gravity_moment"]),
+            Needs(vec!["column", "unit"]),
         ),
-        rule("[pose]", When::Always, Then::NeedsOne(TURN.names().collect())),
+        rule("[pose]", Always, NeedsOne(TURN.names().collect())),
     ];
     for key in FROM_ROWS.names() {
-        rules.push(rule("[inputs.NAME]", When::Has(key), Then::Refuses(CHANNEL.names().collect())));
+        rules.push(rule("[inputs.NAME]", Has(key), Refuses(CHANNEL.names().collect())));
     }
     for kind in INSTRUMENTS {
-        let of_kind = || When::Is("kind", kind.name);
+        let of_kind = || Is("kind", kind.name);
         let others = INSTRUMENT.names().chain(BOARD.names()).filter(|key| !kind.has(key)).collect();
         let required = required_keys(kind);
         if !required.is_empty() {
-            rules.push(rule("[[instrument]]", of_kind(), Then::Needs(required)));
+            rules.push(rule("[[instrument]]", of_kind(), Needs(required)));
         }
-        rules.push(rule("[[instrument]]", of_kind(), Then::Refuses(others)));
+        rules.push(rule("[[instrument]]", of_kind(), Refuses(others)));
     }
     rules
 }

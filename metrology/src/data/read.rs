@@ -86,10 +86,7 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
     let head = root.required("data")?.table("[data]", &[&keys::DATA])?;
     let joints = joints(root, spec);
     let inputs = inputs(root, spec);
-    let named = |key: &str| match head.get(key) {
-        Some(item) => column(&item).map(Some),
-        None => Some(None),
-    };
+    let named = |key: &str| head.get(key).map_or(Some(None), |item| column(&item).map(Some));
     let (group, direction, time, setup) = (named("group"), named("direction"), named("time"), named("setup"));
     let stated = match (head.get("uncertainty"), root.get("instrument")) {
         (None, Some(_)) => None,

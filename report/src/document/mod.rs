@@ -16,7 +16,7 @@ use abbe_study::RunRecord;
 pub(crate) use list::{first, joined};
 pub use plain::plain;
 pub(crate) use section::{Block, Card, Depth, Figure, Section};
-pub(crate) use table::{Column, Table, number, words};
+pub(crate) use table::Table;
 pub use worded::Worded;
 
 /// Report of a job, in sections.

@@ -1,7 +1,5 @@
 //! Tables of a document.
 
-use std::ops::Range;
-
 /// Table of texts. The first column names the rows.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
@@ -21,20 +19,13 @@ pub(crate) struct Column {
     pub(crate) is_number: bool,
 }
 
-/// Creates a column of words.
-pub(crate) fn words(name: impl Into<String>) -> Column {
-    Column { name: name.into(), is_number: false }
-}
-
-/// Creates a column of numbers.
-pub(crate) fn number(name: impl Into<String>) -> Column {
-    Column { name: name.into(), is_number: true }
-}
+/// Mark before the name of a column of numbers.
+const NUMBERS: char = '>';
 
 impl Table {
-    /// Creates a table without rows.
-    pub(crate) fn new<const N: usize>(caption: impl Into<String>, columns: [Column; N]) -> Self {
-        Self { caption: caption.into(), columns: columns.into(), rows: Vec::new(), rest: String::new() }
+    /// Creates a table without rows. `>` before the name of a column marks a column of numbers.
+    pub(crate) fn new<const N: usize>(caption: impl Into<String>, columns: [&str; N]) -> Self {
+        Self::listing(caption, &columns, Vec::new())
     }
 
     /// Adds rows of one cell for each column.
@@ -43,18 +34,18 @@ impl Table {
         self
     }
 
-    /// Creates a table without a caption, of which some columns are numbers.
-    pub(crate) fn listing(header: &[&str], rows: Vec<Vec<String>>, numbers: Range<usize>) -> Self {
-        let columns = header
-            .iter()
-            .enumerate()
-            .map(|(i, name)| Column { name: (*name).to_owned(), is_number: numbers.contains(&i) });
-        Self { caption: String::new(), columns: columns.collect(), rows, rest: String::new() }
-    }
-
-    /// Sets the caption.
-    pub(crate) fn titled(self, caption: impl Into<String>) -> Self {
-        Self { caption: caption.into(), ..self }
+    /// Creates a table with rows; columns as for [`new`](Self::new).
+    pub(crate) fn listing(
+        caption: impl Into<String>,
+        columns: &[impl AsRef<str>],
+        rows: Vec<Vec<String>>,
+    ) -> Self {
+        let column = |name: &str| {
+            let number = name.strip_prefix(NUMBERS);
+            Column { name: number.unwrap_or(name).to_owned(), is_number: number.is_some() }
+        };
+        let columns = columns.iter().map(|name| column(name.as_ref())).collect();
+        Self { caption: caption.into(), columns, rows, rest: String::new() }
     }
 
     /// Iterates over the names of the columns; `None` if they have none.

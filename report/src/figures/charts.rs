@@ -4,6 +4,7 @@ use abbe_metrology::monitor::{Chart, Finding, Report};
 use abbe_study::date::Calendar;
 
 use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, ends, with_margin};
+use crate::unit::angle_in_mrad;
 
 /// Maximum number of charts with a panel of their own.
 const DRAWN: usize = 9;
@@ -57,14 +58,9 @@ fn dots(values: &[f64], colour: Colour, report: &Report) -> Mark<[f64; 2]> {
     Mark::points(colour, radius, over_time(values.iter().copied(), report)).faded(0.8)
 }
 
-/// Returns factor and unit of display: mrad for rad.
-fn display_unit(unit: &str) -> (f64, &str) {
-    if unit == "rad" { (1e3, "mrad") } else { (1.0, unit) }
-}
-
 /// Shows the error that changed, and the change that explains it best.
 fn changed(finding: &Finding, report: &Report) -> Scene {
-    let (factor, unit) = display_unit(finding.unit);
+    let (factor, unit) = angle_in_mrad(finding.unit);
     let column = |i: usize| over_time(finding.series.iter().map(|values| values[i] * factor), report);
     let [first, last] = finding.between;
     let is_since = |[time, _]: &[f64; 2]| {
@@ -114,7 +110,7 @@ fn all(report: &Report) -> Scene {
 
 /// Shows the error of one chart minus its mean.
 fn one(chart: &Chart, report: &Report) -> Panel {
-    let (factor, unit) = display_unit(chart.unit);
+    let (factor, unit) = angle_in_mrad(chart.unit);
     let mean = chart.values.iter().sum::<f64>() / chart.values.len().max(1) as f64;
     let values = chart.values.iter().map(|value| (value - mean) * factor).collect::<Vec<_>>();
     let colour = if chart.alarm.is_some() { CHANGED } else { Colour::INK };

@@ -17,6 +17,6 @@ mod table;
 use document::{document, folded, heading, panel, panels, paragraphs, section, verdict};
 pub(crate) use index::index;
 pub use notebook::notebook;
-pub use provenance::Provenance;
+pub(crate) use provenance::Provenance;
 
 use crate::markup::escaped;

@@ -12,9 +12,9 @@ use super::{escaped, section};
 
 /// Input files of a report, which the report itself does not contain.
 #[derive(Clone, Debug, Default)]
-pub struct Provenance {
+pub(crate) struct Provenance {
     /// Kind, name and SHA-256 of each file or table.
-    pub files: Vec<(&'static str, String, String)>,
+    pub(crate) files: Vec<(&'static str, String, String)>,
 }
 
 impl Provenance {
@@ -23,7 +23,7 @@ impl Provenance {
     /// # Errors
     ///
     /// A file cannot be read.
-    pub fn new<'f>(
+    pub(crate) fn new<'f>(
         spec: &Spec,
         map: Option<&Map>,
         files: impl IntoIterator<Item = (&'static str, impl Into<Source<'f>>)>,

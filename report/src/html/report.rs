@@ -1,6 +1,9 @@
 //! Shows a document as a page.
 
-use abbe_study::explore;
+use abbe_metrology::data::{Map, Source};
+use abbe_spec::Diagnostics;
+use abbe_study::explore::{self, Explore};
+use abbe_study::{Machine, Notes, Residuals};
 
 use super::document::cards;
 use super::figure::figure;
@@ -13,8 +16,27 @@ use crate::document::{Block, Depth, Document, Section, Table};
 const LONG: usize = 12;
 
 impl Document {
+    /// Builds the page of a report on measurements, with a live panel of the machine and its
+    /// residuals, if there are any. `files` are the kinds and the data of the job.
+    ///
+    /// # Errors
+    ///
+    /// A file cannot be read, or `notes` stop the job.
+    pub fn measured_page<'f>(
+        &self,
+        machine: &Machine,
+        map: Option<&Map>,
+        files: impl IntoIterator<Item = (&'static str, impl Into<Source<'f>>)>,
+        residuals: Option<Residuals>,
+        notes: &mut dyn Notes,
+    ) -> Result<String, Diagnostics> {
+        let provenance = Provenance::new(&machine.spec, map, files)?;
+        let live = Explore::measured(machine.clone(), residuals).run(notes)?;
+        Ok(self.page(&provenance, Some(&live)))
+    }
+
     /// Builds the page of the report; `live` is the data of its live panel.
-    pub fn page(&self, provenance: &Provenance, live: Option<&explore::Report>) -> String {
+    pub(crate) fn page(&self, provenance: &Provenance, live: Option<&explore::Report>) -> String {
         let panels = panels(live);
         let mut body = heading(self.kind, &self.machine, &self.title);
         body += &match &self.verdict {

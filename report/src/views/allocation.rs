@@ -7,7 +7,7 @@ use abbe_study::study_file::Criterion;
 
 use super::analysis::by_criterion;
 use super::shared::{changed, place};
-use crate::document::{Document, Section, Table, number, words};
+use crate::document::{Document, Section, Table};
 
 /// Number of sources on the first screen.
 const SHOWN: usize = 10;
@@ -56,7 +56,7 @@ const DRAWN: &str = "Each factor multiplies the errors of its source. With these
 /// Tabulates the sources, the smallest factor first.
 fn table(report: &Report) -> Table {
     let (factor, unit) = if report.tolerance.is_some() { error_unit(report.length) } else { (1e3, "mrad") };
-    let columns = [words("source"), number("factor"), number(format!("alone, {unit}")), number("then")];
+    let columns = ["source", ">factor", &format!(">alone, {unit}"), ">then"];
     let mut sources: Vec<&AllocatedSource> = report.sources.iter().collect();
     sources.sort_by(|a, b| a.fixed.cmp(&b.fixed).then(a.factor.total_cmp(&b.factor)));
     Table::new("", columns).rows(sources.into_iter().map(|source| {

@@ -4,7 +4,7 @@ use abbe_study::bound::{Dexterity, ErrorBound, ErrorBounds, LowerBound, Margin, 
 use abbe_study::number::{self, error_unit, of_symbol, unbroken};
 
 use super::shared::{changed, place};
-use crate::document::{Document, Section, Table, first, joined, number as figures, words};
+use crate::document::{Document, Section, Table, first, joined};
 
 /// Describes certified bounds of errors.
 pub fn bound(report: &Report) -> Document {
@@ -36,7 +36,7 @@ fn largest(report: &Report) -> Table {
     let named = [("repeatable", &report.repeatable), ("random", &report.random), ("total", &report.total)];
     let is_there = |errors: &ErrorBounds| kinds.iter().any(|(_, there)| std::ptr::eq(*there, errors));
     let named = named.into_iter().filter(|(_, errors)| is_there(errors));
-    let columns = [words(""), figures("found"), figures("no more than"), words("")];
+    let columns = ["", ">found", ">no more than", ""];
     Table::new("", columns).rows(named.flat_map(|(name, errors)| rows(report, name, errors)))
 }
 
@@ -215,7 +215,7 @@ const STIFFNESS: &str = "Inverse of the largest singular value of the compliance
 
 /// Tabulates least values, each with its name and its factor.
 fn least(rows: &[(&str, &LowerBound, f64)]) -> Table {
-    let columns = [words("of"), figures("never below"), figures("found"), words("found at")];
+    let columns = ["of", ">never below", ">found", "found at"];
     Table::new("", columns).rows(rows.iter().map(|(name, least, factor)| {
         let found = least.found.map(|found| factor * found);
         let decimals = number::decimals(found.unwrap_or(factor * least.certified).max(1e-3), 5);
@@ -306,7 +306,7 @@ fn of_margin(margin: &Margin, (unit, factor): (&str, f64)) -> Option<String> {
 
 fn table(report: &Report, title: &str, errors: &ErrorBounds) -> Table {
     let unit = report.length;
-    let columns = [words("error"), figures("at least"), figures("at most"), words("unit"), words("found at")];
+    let columns = ["error", ">at least", ">at most", "unit", "found at"];
     let names = ["norm", "x", "y", "z", "orientation"];
     Table::new(title, columns).rows(names.into_iter().zip(errors.all()).map(|(name, largest)| {
         let (factor, unit) = if name == "orientation" { (1e3, "mrad") } else { (1.0, unit) };

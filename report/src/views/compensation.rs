@@ -7,7 +7,7 @@ use abbe_spec::Spec;
 use abbe_study::number::{NO_BREAK, counted, error_decimals, error_unit, fixed, length, short, visible};
 
 use super::shared::{data_rows, extrapolated, first_rows};
-use crate::document::{Card, Column, Document, Section, Table, Verdict, number, words};
+use crate::document::{Card, Document, Section, Table, Verdict};
 use crate::figures::distances;
 
 /// Number of reasons on the first screen.
@@ -46,13 +46,7 @@ pub fn compensation(spec: &Spec, machine: &Description, map: &Map, report: &Repo
 
 fn errors(report: &Report) -> Table {
     let (factor, unit) = error_unit(report.length);
-    let columns = [
-        words("tool point"),
-        number(format!("mean {unit}")),
-        number("rms"),
-        number("max"),
-        number("max orientation mrad"),
-    ];
+    let columns = ["tool point", &format!(">mean {unit}"), ">rms", ">max", ">max orientation mrad"];
     let row = |(name, size): (&str, &NormStatistics)| {
         let [mean, rms, max] = [size.mean, size.rms, size.max].map(|value| visible(factor * value, 4));
         [name.to_owned(), mean, rms, max, visible(1e3 * size.angle_max, 4)]
@@ -131,13 +125,12 @@ fn about(machine: &Description, report: &Report) -> Section {
 /// Tabulates the first rows.
 fn commands(machine: &Description, report: &Report) -> Table {
     let (factor, unit) = error_unit(report.length);
-    let columns: Vec<Column> = std::iter::once(number("line"))
-        .chain(machine.variables.iter().map(|variable| {
-            let unit = if variable.kind == VariableKind::Revolute { "°" } else { report.length };
-            number(format!("{} ({unit})", variable.name))
-        }))
-        .chain(["before", "after"].map(number))
-        .collect();
+    let variables = machine.variables.iter().map(|variable| {
+        let unit = if variable.kind == VariableKind::Revolute { "°" } else { report.length };
+        format!(">{} ({unit})", variable.name)
+    });
+    let [line, before, after] = [">line", ">before", ">after"].map(str::to_owned);
+    let columns: Vec<String> = [line].into_iter().chain(variables).chain([before, after]).collect();
     let first = &report.row_summary.first;
     let rows = first.iter().map(|row| {
         let values = machine.variables.iter().zip(&row.q.0).map(|(variable, (_, value))| {
@@ -146,16 +139,13 @@ fn commands(machine: &Description, report: &Report) -> Table {
         let left = [row.before.length, row.after.length].map(|value| visible(factor * value, 4));
         std::iter::once(row.line.to_string()).chain(values).chain(left).collect()
     });
-    let rest = match report.row_summary.rows - first.len() {
+    let caption = format!("Before and after: error of the tool point ({unit})");
+    let mut table = Table::listing(caption, &columns, rows.collect());
+    table.rest = match report.row_summary.rows - first.len() {
         0 => String::new(),
         more => format!("… and {more} more"),
     };
-    Table {
-        caption: format!("Before and after: error of the tool point ({unit})"),
-        columns,
-        rows: rows.collect(),
-        rest,
-    }
+    table
 }
 
 /// Lists the reasons of rows that are not corrected, if the first screen does not have them all.

@@ -4,7 +4,7 @@ use abbe_study::export::{PoseDifference, Report};
 use abbe_study::number::{digits, error_unit};
 
 use super::shared::some;
-use crate::document::{Document, Section, Table, number, words};
+use crate::document::{Document, Section, Table};
 
 /// Number of gaps on the first screen.
 const SHOWN: usize = 4;
@@ -13,13 +13,7 @@ const SHOWN: usize = 4;
 pub fn exported(report: &Report) -> Document {
     let Report { name, format, length, changes, left_out, configurations, seed, .. } = report;
     let (factor, unit) = error_unit(length);
-    let columns = [
-        words("tool"),
-        number(format!("max {unit}")),
-        number(format!("rms {unit}")),
-        number("max mrad"),
-        number("rms mrad"),
-    ];
+    let columns = ["tool", &format!(">max {unit}"), &format!(">rms {unit}"), ">max mrad", ">rms mrad"];
     let row = |(name, PoseDifference { position, angle }): (&str, &PoseDifference)| {
         let figures =
             [factor * position.largest, factor * position.rms, 1e3 * angle.largest, 1e3 * angle.rms];

@@ -9,7 +9,7 @@ use abbe_study::number::{counted, digits, error_unit, fixed, percent};
 use super::shared::{
     accepted, data_rows, drift_clauses, extrapolated, first_rows, instrument, residual_verdict,
 };
-use crate::document::{Card, Document, Section, Table, number, words};
+use crate::document::{Card, Document, Section, Table};
 use crate::figures::measured;
 
 /// Number of instruments on the first screen.
@@ -57,8 +57,7 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report) -> Document {
 /// Tabulates the error of the measured points, and what the spec leaves of it.
 fn points(report: &Report) -> Table {
     let (lengths, length) = error_unit(report.length);
-    let columns =
-        [words("measured − ideal"), number("mean"), number("rms"), number("max"), number("3 σ"), words("")];
+    let columns = ["measured − ideal", ">mean", ">rms", ">max", ">3 σ", ""];
     let mut table = Table::new("", columns).rows(report.errors.iter().map(|size| {
         let (factor, unit) = if size.unit == "rad" { (1e3, "mrad") } else { (lengths, length) };
         let [mean, rms, max, sigma] =
@@ -78,16 +77,8 @@ fn points(report: &Report) -> Table {
 }
 
 fn instruments(report: &Report) -> Table {
-    let columns = [
-        words("reading − prediction"),
-        number("count"),
-        number("mean"),
-        number("rms"),
-        number("max"),
-        number("rms if ideal"),
-        number("stated σ"),
-        words(""),
-    ];
+    let columns =
+        ["reading − prediction", ">count", ">mean", ">rms", ">max", ">rms if ideal", ">stated σ", ""];
     let all = &report.instruments;
     let mut table = Table::new("", columns).rows(all.iter().take(SHOWN).map(|one| {
         let [mean, rms, max, ideal] =
@@ -106,17 +97,8 @@ fn stated(one: &InstrumentErrors) -> String {
 
 /// Tabulates all instruments, with the standard errors of their means.
 fn all_instruments(report: &Report) -> Section {
-    let columns = [
-        words("name"),
-        words("unit"),
-        number("read"),
-        number("mean"),
-        number("std. error"),
-        number("rms"),
-        number("rms if ideal"),
-        number("max"),
-        number("stated σ"),
-    ];
+    let columns =
+        ["name", "unit", ">read", ">mean", ">std. error", ">rms", ">rms if ideal", ">max", ">stated σ"];
     let rows = report.instruments.iter().map(|one| {
         let [mean, rms, ideal, max] =
             [one.left.mean, one.left.rms, one.ideal.rms, one.left.max].map(|value| digits(value, 4));

@@ -6,9 +6,10 @@ use abbe_spec::Spec;
 use abbe_spec::option::SINCE;
 use abbe_study::number::{digits, fixed, percent, trimmed};
 
-use super::shared::{angle_in_mrad, instrument};
-use crate::document::{Card, Document, Section, Table, Verdict, first, joined, number, words};
+use super::shared::instrument;
+use crate::document::{Card, Document, Section, Table, Verdict, first, joined};
 use crate::figures::charts;
+use crate::unit::angle_in_mrad;
 
 /// Number of charts on the first screen.
 const SHOWN: usize = 5;
@@ -61,7 +62,7 @@ fn values(report: &Report, chart: &Chart) -> [String; 4] {
 }
 
 fn nearest(report: &Report) -> Table {
-    let columns = [words("chart"), number("last value"), words(""), number("of the limit"), words("alarm")];
+    let columns = ["chart", ">last value", "", ">of the limit", "alarm"];
     let shown = report.nearest_first().into_iter().take(SHOWN).chain([&report.left]);
     Table::new("", columns).rows(shown.map(|chart| {
         let [value, unit, share, alarm] = values(report, chart);
@@ -71,14 +72,7 @@ fn nearest(report: &Report) -> Table {
 
 /// Tabulates the charts with the errors that each stands for.
 fn charts(report: &Report) -> Table {
-    let columns = [
-        words("error"),
-        words("indistinguishable from"),
-        number("last value"),
-        words(""),
-        number("of the limit"),
-        words("alarm"),
-    ];
+    let columns = ["error", "indistinguishable from", ">last value", "", ">of the limit", "alarm"];
     let all = report.nearest_first();
     let hidden = all.len().saturating_sub(LISTED);
     let shown = all.into_iter().take(LISTED).chain([&report.left]);

@@ -7,7 +7,7 @@ use abbe_spec::option::MODEL_ERROR_LENGTH;
 use abbe_study::number::{digits, error_unit, quantity};
 
 use super::identification::indistinguishable;
-use crate::document::{Document, Section, Table, first, joined, number, words};
+use crate::document::{Document, Section, Table, first, joined};
 
 /// Number of errors named on the first screen.
 const NAMED: usize = 8;
@@ -18,13 +18,7 @@ pub fn plan(spec: &Spec, map: &Map, report: &Report) -> Document {
     let predicted = &report.predicted;
     let [mean, rms, p95, max] =
         [predicted.mean, predicted.rms, predicted.p95, predicted.max].map(|value| digits(factor * value, 3));
-    let columns = [
-        words("predicted σ of the tool point"),
-        number(format!("mean {unit}")),
-        number("rms"),
-        number("95 %"),
-        number("max"),
-    ];
+    let columns = ["predicted σ of the tool point", &format!(">mean {unit}"), ">rms", ">95 %", ">max"];
     let row = [format!("at {} configurations of use", report.used), mean, rms, p95, max];
     Document {
         kind: "Measurement plan",

@@ -6,7 +6,7 @@ use abbe_metrology::positioning::{
 use abbe_spec::option::{READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use abbe_study::number::digits;
 
-use crate::document::{Document, Section, Table, joined, number, words};
+use crate::document::{Document, Section, Table, joined};
 
 /// Describes the characteristics of a positioning test.
 pub fn positioning(report: &Report) -> Document {
@@ -76,7 +76,7 @@ fn of_axis(PositioningLine { evaluation, .. }: &PositioningLine, unit: &str) -> 
             [name.to_owned(), shown(both), up, down]
         };
     let none = |_: &Unidirectional| None;
-    let columns = [words(unit), number("bidirectional"), number("forward"), number("reverse")];
+    let columns = [unit, ">bidirectional", ">forward", ">reverse"];
     Table::new("", columns).rows([
         row("A   accuracy", both.and_then(|both| both.accuracy), |side| side.accuracy),
         row("E   systematic error", both.map(|both| both.systematic), |side| Some(side.systematic)),
@@ -88,7 +88,7 @@ fn of_axis(PositioningLine { evaluation, .. }: &PositioningLine, unit: &str) -> 
 }
 
 fn of_diagonals(lines: &[PositioningLine], unit: &str) -> Table {
-    let columns = [words("diagonal"), number(format!("E {unit}")), number("M"), number("R"), number("B")];
+    let columns = ["diagonal", &format!(">E {unit}"), ">M", ">R", ">B"];
     Table::new("", columns).rows(lines.iter().map(|PositioningLine { name, evaluation }| {
         let both = evaluation.bidirectional.as_ref();
         [
@@ -105,7 +105,7 @@ fn of_diagonals(lines: &[PositioningLine], unit: &str) -> Table {
 fn positions(report: &Report, PositioningLine { name, evaluation }: &PositioningLine) -> Table {
     let of = if name.is_empty() { String::new() } else { format!(" of diagonal {name}") };
     let caption = format!("Positions{of}, in {}; deviations in {}", report.position_unit, report.unit);
-    let columns = ["P_i", "x̄_i↑", "s_i↑", "x̄_i↓", "s_i↓", "x̄_i", "B_i", "R_i"].map(number);
+    let columns = [">P_i", ">x̄_i↑", ">s_i↑", ">x̄_i↓", ">s_i↓", ">x̄_i", ">B_i", ">R_i"];
     Table::new(caption, columns).rows(evaluation.positions.iter().map(|one| {
         let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| digits(value, 3));
         let [up, down] = [one.forward, one.reverse];

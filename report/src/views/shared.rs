@@ -19,11 +19,6 @@ const NAMED: usize = 12;
 /// Notes on the first screen.
 pub(super) const NOTES: usize = 2;
 
-/// Returns the factor and the unit in which a number is shown: mrad for rad.
-pub(super) fn angle_in_mrad(unit: &'static str) -> (f64, &'static str) {
-    if unit == "rad" { (1e3, "mrad") } else { (1.0, unit) }
-}
-
 /// Returns where one joint reaches a dead point alone.
 pub(super) fn dead_point(point: Option<&DeadPoint>, spec: &Spec) -> String {
     let kind = |name: &str| spec.variables.iter().find(|variable| variable.name == name);

@@ -57,11 +57,9 @@ pub fn open_pose(
     transforms: impl FnOnce(&mut [Pose]) -> Result<(), Error>,
     errors: &[[f64; 6]],
 ) -> Result<Pose, Error> {
-    let (expected, found) = (description.frames.len(), errors.len());
-    if expected != found {
-        return Err(Error::Count { quantity: Quantity::Errors, expected, found });
-    }
-    let mut nominal = std::vec![Pose::IDENTITY; expected + 1];
+    let frames = description.frames.len();
+    checks::length(Quantity::Errors, [frames, 1], errors.len())?;
+    let mut nominal = std::vec![Pose::IDENTITY; frames + 1];
     transforms(&mut nominal)?;
     let pose = tool_pose(description, &nominal, errors);
     checks::finite(Quantity::Pose, pose.0.as_flattened())?;

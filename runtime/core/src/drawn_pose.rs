@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use crate::{Class, Description, Error, Manipulator, Pose, Quantity};
+use crate::{Class, Description, Error, Manipulator, Pose, Quantity, checks};
 
 /// Returns the exact pose of the tool point with the errors of every source times its magnitude,
 /// equation (6).
@@ -23,10 +23,7 @@ pub fn drawn_pose<M: Manipulator + ?Sized>(
         return Ok(pose);
     }
     let description = manipulator.description();
-    let (expected, found) = (description.sources.len(), magnitudes.len());
-    if expected != found {
-        return Err(Error::Count { quantity: Quantity::Magnitudes, expected, found });
-    }
+    checks::length(Quantity::Magnitudes, [description.sources.len(), 1], magnitudes.len())?;
     let mut effects = vec![0.0; description.effects.len()];
     let mut errors = vec![[0.0; 6]; description.frames.len()];
     manipulator.effects(q, s, u, &mut effects)?;

@@ -26,7 +26,8 @@ mod quantity;
 mod remedy;
 mod scalar;
 mod shared;
-mod sin_cos;
+#[doc(hidden)]
+pub mod sin_cos;
 mod source;
 #[cfg(feature = "lanes")]
 mod twist;

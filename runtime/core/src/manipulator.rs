@@ -4,7 +4,7 @@ use bytemuck::TransparentWrapper;
 
 #[cfg(feature = "std")]
 use crate::open_pose;
-use crate::{Description, Error, Function, Pose, Quantity};
+use crate::{Description, Error, Function, Pose, Quantity, checks};
 
 /// Manipulator: pure functions of the joint variables `q`, the structural parameters `s` and the
 /// inputs `u`.
@@ -119,10 +119,9 @@ pub trait Manipulator: Sync {
     ///
     /// Returns [`Error::NotClosed`] if there are none.
     fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), Error> {
-        match (self.description().has_loops(), passive.len()) {
-            (true, _) => self.evaluate(Function::Passive, &[q, s], &mut [passive]),
-            (false, 0) => Ok(()),
-            (false, found) => Err(Error::Count { quantity: Quantity::Passive, expected: 0, found }),
+        match self.description().has_loops() {
+            true => self.evaluate(Function::Passive, &[q, s], &mut [passive]),
+            false => checks::length(Quantity::Passive, [0, 1], passive.len()),
         }
     }
 
@@ -155,10 +154,7 @@ pub trait Manipulator: Sync {
             let arguments = [q, s, target.0.as_flattened()];
             return self.evaluate(Function::Inverse, &arguments, &mut [solutions, found]);
         }
-        match found.len() {
-            0 => Ok(()),
-            found => Err(Error::Count { quantity: Quantity::Solutions, expected: 0, found }),
-        }
+        checks::length(Quantity::Solutions, [0, 1], found.len())
     }
 }
 

@@ -14,10 +14,11 @@ use core::ops::{Add, Mul, Sub};
 /// not exact.
 pub(crate) const REACH: f64 = 1e5;
 
-const FRAC_2_PI: f64 = core::f64::consts::FRAC_2_PI;
+/// 2/π.
+pub const FRAC_2_PI: f64 = core::f64::consts::FRAC_2_PI;
 /// π/2 to 2⁻³⁶, 2⁻⁵³, 2⁻⁹⁰, and the rest. For an `n` of 16 bits the first three products and the
 /// first two differences are exact. All parts are positive, so that −0 stays −0.
-const EXACT_PARTS: [f64; 4] = [
+pub const EXACT_PARTS: [f64; 4] = [
     1.570_796_326_792_333_3,
     2.563_282_919_254_561_4e-12,
     6.123_233_995_707_727e-17,
@@ -30,7 +31,7 @@ const FUSED_PARTS: [f64; 3] =
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// Coefficients of `S`, lowest power first.
-const SINE: [f64; 6] = [
+pub const SINE: [f64; 6] = [
     -0.166_666_666_666_666_32,
     0.008_333_333_333_322_49,
     -0.000_198_412_698_298_579_5,
@@ -39,7 +40,7 @@ const SINE: [f64; 6] = [
     1.589_690_995_211_55e-10,
 ];
 /// Coefficients of `C`, lowest power first, after `−1/2`.
-const COSINE: [f64; 7] = [
+pub const COSINE: [f64; 7] = [
     -0.5,
     0.041_666_666_666_666_6,
     -0.001_388_888_888_887_411,
@@ -56,9 +57,15 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     /// Returns a constant.
     fn splat(value: f64) -> Self;
     /// Returns `self · b + c`.
-    fn times_plus(self, b: Self, c: Self) -> Self;
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
     /// Returns `c − self · b`.
-    fn times_from(self, b: Self, c: Self) -> Self;
+    #[inline(always)]
+    fn times_from(self, b: Self, c: Self) -> Self {
+        c - self * b
+    }
     /// Returns the bitwise exclusive or.
     fn xor(self, other: Self) -> Self;
     /// Returns the bitwise and.
@@ -83,16 +90,6 @@ impl Real for f64 {
     #[inline(always)]
     fn splat(value: f64) -> f64 {
         value
-    }
-
-    #[inline(always)]
-    fn times_plus(self, b: f64, c: f64) -> f64 {
-        self * b + c
-    }
-
-    #[inline(always)]
-    fn times_from(self, b: f64, c: f64) -> f64 {
-        c - self * b
     }
 
     #[inline(always)]

@@ -73,16 +73,6 @@ impl Real for Sse2 {
     }
 
     #[inline(always)]
-    fn times_plus(self, b: Self, c: Self) -> Self {
-        self * b + c
-    }
-
-    #[inline(always)]
-    fn times_from(self, b: Self, c: Self) -> Self {
-        c - self * b
-    }
-
-    #[inline(always)]
     fn xor(self, other: Self) -> Self {
         // SAFETY: the CPU has the instruction, see the module documentation.
         Self(unsafe { _mm_xor_pd(self.0, other.0) })

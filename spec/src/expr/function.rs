@@ -39,20 +39,9 @@ pub const FUNCTION_NAMES: [&str; 14] =
 impl Function {
     /// Returns the function with this name in a spec file.
     pub fn named(name: &str) -> Option<Self> {
-        Some(match name {
-            "sin" => Self::Sin,
-            "cos" => Self::Cos,
-            "tan" => Self::Tan,
-            "asin" => Self::Asin,
-            "acos" => Self::Acos,
-            "atan" => Self::Atan,
-            "sqrt" => Self::Sqrt,
-            "abs" => Self::Abs,
-            "exp" => Self::Exp,
-            "log" => Self::Log,
-            "sign" => Self::Sign,
-            _ => return None,
-        })
+        use Function::{Abs, Acos, Asin, Atan, Cos, Exp, Log, Sign, Sin, Sqrt, Tan};
+        let all = [Sin, Cos, Tan, Asin, Acos, Atan, Sqrt, Abs, Exp, Log, Sign];
+        all.into_iter().find(|function| function.name() == name)
     }
 
     /// Returns the name in spec files.

@@ -1,5 +1,6 @@
 //! First-order error: the distance between `ΔX ≈ J_e ε` and the exact chain.
 
+use abbe::analysis::sampling::vectors::{distance, norm};
 use abbe::analysis::{Configuration, Row, Subset, Sweepable, Unevaluated, Workspace, sweep};
 use abbe::{Class, Error, deviation, drawn_pose};
 use serde::Serialize;
@@ -66,17 +67,13 @@ impl<'a> Comparison<'a> {
         {
             let along: f64 = first.iter().zip(moved).map(|(sum, part)| sum * part).sum();
             // Perpendicular errors have no sign of their own.
-            let zero = 1e-9 * norm(&first) * norm(&moved[..3]);
+            let zero = 1e-9 * norm(first) * norm([moved[0], moved[1], moved[2]]);
             let sign = if along < -zero { -1.0 } else { 1.0 };
             *magnitude = sign * bound;
             first = std::array::from_fn(|i| first[i] + sign * moved[i]);
         }
         let real = drawn_pose(self.manipulator, q, s, u, &magnitudes)?;
         let exact = deviation(self.manipulator.description().orientation, &row.pose, &real);
-        Ok(norm(&std::array::from_fn::<_, 3, _>(|i| exact[i] - first[i])))
+        Ok(distance([exact[0], exact[1], exact[2]], first))
     }
-}
-
-fn norm(vector: &[f64]) -> f64 {
-    vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }

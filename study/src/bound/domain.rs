@@ -4,7 +4,7 @@ use abbe_spec::option::SET;
 use std::sync::Arc;
 
 use abbe::analysis::{BudgetOptions, Configuration, Measurand, error_budget};
-use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
+use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress, Watch};
 use abbe_codegen::chain::{DIRECTION, Implicit, Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
 use abbe_spec::expr::Symbol;
@@ -99,7 +99,7 @@ impl Domain {
         implicit: &[Implicit],
         start: Option<&[f64]>,
         effort: &Effort,
-        watch: &mut dyn FnMut(&Progress) -> bool,
+        watch: &mut Watch<'_>,
     ) -> abbe_bound::Bound {
         let mut names = self.names();
         for (name, start) in names.iter_mut().zip(start.unwrap_or_default()) {

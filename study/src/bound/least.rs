@@ -1,6 +1,6 @@
 //! Smallest singular value of the joint Jacobian, and smallest stiffness of the machine.
 
-use abbe_bound::{Effort, Extreme, Progress, Singular, singular_value};
+use abbe_bound::{Effort, Extreme, Singular, Watch, singular_value};
 use abbe_codegen::chain;
 
 use super::domain::Domain;
@@ -8,11 +8,7 @@ use super::report::{Dexterity, LowerBound};
 
 impl Domain {
     /// Returns the dexterity of the tool point and of the tool; `None` for fewer than three joints.
-    pub(super) fn dexterity(
-        &self,
-        effort: &Effort,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Option<Dexterity> {
+    pub(super) fn dexterity(&self, effort: &Effort, watch: &mut Watch<'_>) -> Option<Dexterity> {
         let chain::Dexterity { graph, point, pose } = chain::Dexterity::new(&self.spec)?;
         let mut least = |rows: &Vec<_>| {
             let still = |symbol| self.home(symbol);
@@ -24,11 +20,7 @@ impl Domain {
 
     /// Returns the smallest stiffness at the tool point, in N/m: the inverse of the largest
     /// compliance. `None` if no force deflects the tool point.
-    pub(super) fn stiffness(
-        &self,
-        effort: &Effort,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Option<LowerBound> {
+    pub(super) fn stiffness(&self, effort: &Effort, watch: &mut Watch<'_>) -> Option<LowerBound> {
         let chain::ToolCompliance { graph, rows } = chain::ToolCompliance::new(&self.spec)?;
         let still = |symbol| self.home(symbol);
         let largest = singular_value(Extreme::Largest, &graph, &rows, &self.names(), &still, effort, watch);

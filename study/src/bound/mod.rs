@@ -14,7 +14,7 @@ mod report;
 use std::time::{Duration, Instant};
 
 use abbe::Orientation;
-use abbe_bound::{Bound as Proved, Effort, Progress};
+use abbe_bound::{Bound as Proved, Effort, Watch};
 use abbe_codegen::chain::{Implicit, Magnitude, Magnitudes};
 use abbe_codegen::graph::Graph;
 use abbe_spec::diagnostic::Diagnostics;
@@ -209,7 +209,7 @@ impl Searches<'_> {
     fn run<T>(
         &mut self,
         notes: &mut dyn Notes,
-        search: impl FnOnce(&Domain, &mut dyn FnMut(&Progress) -> bool) -> T,
+        search: impl FnOnce(&Domain, &mut Watch<'_>) -> T,
     ) -> Result<T, Diagnostics> {
         let Self { job, domain, begun, done, .. } = *self;
         let found = search(domain, &mut |_| {

@@ -1,6 +1,6 @@
 //! Bounds on the first-order error, and on the error after one step of compensation.
 
-use abbe_bound::{Effort, Moving, Progress};
+use abbe_bound::{Effort, Moving, Progress, Watch};
 use abbe_codegen::chain::{self, Implicit, Magnitude};
 use abbe_codegen::graph::Graph;
 use abbe_spec::expr::Symbol;
@@ -14,11 +14,7 @@ const REMAINDER_EFFORT: Effort = Effort { gap: 0.5, boxes: 20_000, ..Effort::DEF
 impl Domain {
     /// Bounds the first-order error in the position for the repeatable sources; `None` if there are
     /// none.
-    pub(super) fn remainder(
-        &self,
-        requested: &Effort,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Option<Remainder> {
+    pub(super) fn remainder(&self, requested: &Effort, watch: &mut Watch<'_>) -> Option<Remainder> {
         if !Classes::enabled(&self.spec).repeatable {
             return None;
         }
@@ -38,7 +34,7 @@ impl Domain {
         &self,
         requested: &Effort,
         before: [f64; 2],
-        watch: &mut dyn FnMut(&Progress) -> bool,
+        watch: &mut Watch<'_>,
     ) -> Option<StepResidual> {
         if !Classes::enabled(&self.spec).repeatable || !self.spec.is_serial() {
             return None;
@@ -67,7 +63,7 @@ impl Domain {
         implicit: &[Implicit],
         share: Symbol,
         requested: &Effort,
-        watch: &mut dyn FnMut(&Progress) -> bool,
+        watch: &mut Watch<'_>,
     ) -> abbe_bound::Bound {
         let mut moving = self.names();
         moving.push(Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 });

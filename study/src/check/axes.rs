@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use abbe::analysis::sampling::vectors::{add, cross, dot, norm, subtract};
 use abbe::{Component, VariableKind};
 use abbe_codegen::chain::{EffectNode, effects, joint_twist, transform};
 use abbe_codegen::graph::{Graph, Node};
@@ -151,10 +152,8 @@ impl Axis {
         let in_base =
             |v: Vector| -> Vector { std::array::from_fn(|i| x[i] * v[0] + y[i] * v[1] + z[i] * v[2]) };
         let point = in_base(cross(rotation, velocity).map(|component| component / square));
-        Some(Self {
-            point: std::array::from_fn(|i| origin[i] + point[i]),
-            direction: in_base(rotation.map(|component| component / square.sqrt())),
-        })
+        let direction = in_base(rotation.map(|component| component / square.sqrt()));
+        Some(Self { point: add(*origin, point), direction })
     }
 
     fn is_parallel(&self, other: &Self) -> bool {
@@ -163,12 +162,11 @@ impl Axis {
 
     /// Returns the distance to a parallel axis.
     fn distance(&self, other: &Self) -> f64 {
-        let between = cross(std::array::from_fn(|i| self.point[i] - other.point[i]), self.direction);
-        dot(between, between).sqrt()
+        norm(cross(subtract(self.point, other.point), self.direction))
     }
 
     fn coincides_with(&self, other: &Self) -> bool {
-        let size = dot(self.point, self.point).sqrt() + dot(other.point, other.point).sqrt();
+        let size = norm(self.point) + norm(other.point);
         self.is_parallel(other) && self.distance(other) <= 1e-6 * size
     }
 }
@@ -188,12 +186,4 @@ fn values(graph: &Graph, spec: &Spec, nodes: &[Node], nominal: bool) -> Vec<f64>
 
 fn vector(values: &[f64]) -> Vector {
     std::array::from_fn(|i| values[i])
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
 }

@@ -248,9 +248,7 @@ impl Report {
             code,
         }
     }
-}
 
-impl Report {
     /// Returns the report without its code, as JSON.
     pub fn data(&self) -> Result<String, serde_json::Error> {
         let mut data = serde_json::to_value(self)?;

@@ -2,13 +2,11 @@
 
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::Item;
-use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
+use abbe_spec::expr::{Dimension, Scope};
 
 /// Reads a constant of a dimension.
 pub fn constant(item: &Item<'_>, dimension: Dimension, what: &str) -> Option<f64> {
-    let scope = Scope::new(item.document.length);
-    let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
-    item.constant(&scope, entry).map(|(value, _)| value)
+    item.amount(&Scope::new(item.document.length), dimension, what)
 }
 
 /// Reads a length above zero.

@@ -54,26 +54,21 @@ type Table = (Vec<Column>, Vec<Vec<f64>>);
 impl Path {
     /// Returns the parameters that have a column.
     pub fn parameters(&self) -> impl Iterator<Item = usize> {
-        self.columns.iter().filter_map(|column| match column.symbol {
-            Symbol::Parameter(i) => Some(i),
-            _ => None,
-        })
+        self.numbers(|symbol| if let Symbol::Parameter(i) = symbol { Some(i) } else { None })
     }
 
     /// Returns the variables that have a column.
     pub fn variables(&self) -> impl Iterator<Item = usize> {
-        self.columns.iter().filter_map(|column| match column.symbol {
-            Symbol::Variable(i) => Some(i),
-            _ => None,
-        })
+        self.numbers(|symbol| if let Symbol::Variable(i) = symbol { Some(i) } else { None })
     }
 
     /// Returns the inputs that have a column.
     pub fn inputs(&self) -> impl Iterator<Item = usize> {
-        self.columns.iter().filter_map(|column| match column.symbol {
-            Symbol::Input(i) => Some(i),
-            _ => None,
-        })
+        self.numbers(|symbol| if let Symbol::Input(i) = symbol { Some(i) } else { None })
+    }
+
+    fn numbers(&self, number: fn(Symbol) -> Option<usize>) -> impl Iterator<Item = usize> {
+        self.columns.iter().filter_map(move |column| number(column.symbol))
     }
 
     /// Returns the symbols that have a column, with their values.

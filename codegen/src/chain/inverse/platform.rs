@@ -169,8 +169,7 @@ impl Leg {
     /// Returns the distance of the joint on the platform from a place.
     fn distance(&self, g: &mut Graph, place: Vector) -> Node {
         let way = g.sub_vectors(self.on_platform, place);
-        let square = g.dot(way, way);
-        g.sqrt(square)
+        g.norm(way)
     }
 }
 

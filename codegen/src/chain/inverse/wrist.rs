@@ -63,8 +63,7 @@ pub(super) fn across(g: &mut Graph, probes: &Probes, along: Vector) -> Vector {
     let mut axis = [g.zero(); 3];
     axis[least] = g.constant(1.0);
     let flat = reject(g, along, axis);
-    let square = g.dot(flat, flat);
-    let (length, one) = (g.sqrt(square), g.constant(1.0));
+    let (length, one) = (g.norm(flat), g.constant(1.0));
     let inverse = g.div(one, length);
     g.scale(inverse, flat)
 }

@@ -14,7 +14,7 @@
 use abbe_spec::{Closure, Loop, Spec};
 
 use super::view::{Motion, View};
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Node, Vector, transposed};
 
 /// Frames of a loop.
 #[derive(Clone, Copy)]
@@ -77,8 +77,7 @@ pub(super) fn residual(
             coordinates.iter().map(|coordinate| rows[*coordinate]).collect()
         }
         (Closure::Distance(_), length) => {
-            let square = graph.dot(difference, difference);
-            let distance = graph.sqrt(square);
+            let distance = graph.norm(difference);
             let length = length.unwrap_or(graph.zero());
             vec![graph.sub(distance, length)]
         }
@@ -133,10 +132,9 @@ pub(super) fn rate(
             let mut rows = c.axes.map(|axis| graph.dot(axis, velocity)).to_vec();
             if coordinates.iter().any(|coordinate| *coordinate >= 3) {
                 let columns = relative(graph, &a, &b);
-                let transposed = std::array::from_fn(|i| columns.map(|column: Vector| column[i]));
                 let turns = [at_a, at_b].map(|twist| graph.sub_vectors(twist[1], at_c[1]));
                 let first = traced(graph, &columns, turns[0]);
-                let second = traced(graph, &transposed, turns[1]);
+                let second = traced(graph, &transposed(&columns), turns[1]);
                 let (half, change) = (graph.constant(0.5), graph.sub_vectors(first, second));
                 let change = graph.scale(half, change);
                 rows.extend(c.axes.map(|axis| graph.dot(axis, change)));
@@ -144,8 +142,7 @@ pub(super) fn rate(
             coordinates.iter().map(|coordinate| rows[*coordinate]).collect()
         }
         Closure::Distance(_) => {
-            let square = graph.dot(difference, difference);
-            let distance = graph.sqrt(square);
+            let distance = graph.norm(difference);
             let along = graph.dot(difference, velocity);
             let change = graph.div(along, distance);
             vec![graph.sub(change, length)]
@@ -182,15 +179,14 @@ pub(super) fn wrenches(
             let [force, moment] = [0, 3].map(|i| graph.turn(&c.axes, [all[i], all[i + 1], all[i + 2]]));
             let moment = graph.scale(half, moment);
             let columns = relative(graph, &a, &b);
-            let transposed = std::array::from_fn(|i| columns.map(|column: Vector| column[i]));
-            let [at_a, minus_b] = [&transposed, &columns].map(|matrix| traced(graph, matrix, moment));
+            let [at_a, minus_b] =
+                [transposed(&columns), columns].map(|matrix| traced(graph, &matrix, moment));
             let swing = graph.cross(difference, force);
             let rest = graph.add_vectors(at_a, swing);
             (force, [at_a, graph.neg_vector(minus_b), graph.sub_vectors(minus_b, rest)])
         }
         Closure::Distance(_) => {
-            let square = graph.dot(difference, difference);
-            let distance = graph.sqrt(square);
+            let distance = graph.norm(difference);
             let per_length = graph.div(forces[0], distance);
             (graph.scale(per_length, difference), [zero; 3])
         }

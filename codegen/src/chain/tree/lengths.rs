@@ -22,8 +22,7 @@ pub(crate) fn add_lengths(graph: &mut Graph, spec: &Spec, symbol: Symbol, twists
         let view = View::new(graph, spec, ends.root(spec));
         let [a, b] = closed.frames.map(|frame| *view.pose(frame));
         let difference = graph.sub_vectors(a.position, b.position);
-        let square = graph.dot(difference, difference);
-        let distance = graph.sqrt(square);
+        let distance = graph.norm(difference);
         let signed = graph.constant(sign);
         let change = graph.mul(signed, slope);
         let per_length = graph.div(change, distance);

@@ -37,7 +37,9 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     records(&mut writer, &routines.description, str::to_owned, number);
     writer.close("};");
     for list in lists(routines.used_tables(), routines.used_sums()) {
-        constant(&mut writer, list.documentation, &list.name, &list.entries(number));
+        writer.blank();
+        comment(&mut writer, list.documentation);
+        writer.array(&format!("const {} = ", list.name), &list.entries(number), ";");
     }
     for table in routines.used_lookup_tables() {
         lookup_table(&mut writer, routines, table);
@@ -64,10 +66,4 @@ fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table) {
     }
     writer.close("};");
     JavaScriptPrinter { writer, routines }.helper(&procedure, &function_of(&name), Some(&name));
-}
-
-fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[String]) {
-    writer.blank();
-    comment(writer, documentation);
-    writer.array(&format!("const {name} = "), values, ";");
 }

@@ -31,10 +31,7 @@ impl Printer for MatlabPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if ", "", "end"];
     const LOOP_END: &'static str = "end";
     const LEAVE: &'static str = "break";
-
-    fn negated(&self, condition: &str) -> String {
-        format!("~({condition})")
-    }
+    const NOT: &'static str = "~";
 
     fn writer(&mut self) -> &mut Writer {
         self.writer

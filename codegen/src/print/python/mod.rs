@@ -65,7 +65,9 @@ fn module(spec: &Spec, routines: &Routines, name: &str) -> String {
     writer.end();
     writer.lines("}");
     for list in lists(routines.used_tables(), routines.used_sums()) {
-        constant(&mut writer, list.documentation, &list.name, &list.entries(number));
+        writer.blank();
+        comment(&mut writer, list.documentation);
+        writer.array(&format!("{} = ", list.name), &list.entries(number), "");
     }
     writer.blank();
     writer.blank();
@@ -102,12 +104,6 @@ fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table) {
     writer.close("]");
     let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
     printer.helper(&procedure, &function_of(&name), Some(&name));
-}
-
-fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[String]) {
-    writer.blank();
-    comment(writer, documentation);
-    writer.array(&format!("{name} = "), values, "");
 }
 
 /// Prints a comment of one or more lines.

@@ -39,10 +39,7 @@ impl Printer for PythonPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if np.all(", "):", ""];
     const LOOP_END: &'static str = "";
     const LEAVE: &'static str = "break";
-
-    fn negated(&self, condition: &str) -> String {
-        format!("~({condition})")
-    }
+    const NOT: &'static str = "~";
 
     fn writer(&mut self) -> &mut Writer {
         self.writer

@@ -115,13 +115,10 @@ impl Printer for BlockPrinter<'_> {
     const LOOP_END: &'static str = "END_FOR;";
     const HAS_LESS: bool = false;
     const LEAVE: &'static str = "EXIT;";
+    const NOT: &'static str = "NOT ";
     const ASSIGN: [&'static str; 2] = [":=", ";"];
     const SKIPS_EMPTY: bool = true;
     const RESULTS: Results = Results::Kept;
-
-    fn negated(&self, condition: &str) -> String {
-        format!("NOT ({condition})")
-    }
 
     fn writer(&mut self) -> &mut Writer {
         self.writer

@@ -12,7 +12,7 @@ use abbe_study::study_file::{Criterion, JudgedMachine};
 use super::agreement::agreement_text;
 use super::conclusions::{exact, loop_condition, nearest_dead_point, singular_sentence};
 use super::verdict::{by_criterion, stated_probability};
-use crate::document::{Section, Table, first, number, words};
+use crate::document::{Section, Table, first};
 use crate::unit;
 use crate::views::shared::{changed, place};
 
@@ -146,7 +146,7 @@ fn figures(report: &Report) -> Table {
             rows.push(["  compensated".to_owned(), value, share, probability, u95, String::new()]);
         }
     }
-    let columns = [words(""), number(""), number(""), words(""), words(""), words("")];
+    let columns = ["", ">", ">", "", "", ""];
     Table::new("", columns).rows(rows)
 }
 
@@ -185,11 +185,11 @@ fn sources(report: &Report) -> Table {
     };
     let shown = if all.len() <= SHOWN + 1 { all.len() } else { SHOWN };
     let alone = match is_built {
-        true if is_allocated => "allocated",
-        true => "alone up to",
-        false => "",
+        true if is_allocated => ">allocated",
+        true => ">alone up to",
+        false => ">",
     };
-    let columns = [words("source"), number(format!("max {unit}")), number("share"), number(alone)];
+    let columns = ["source", &format!(">max {unit}"), ">share", alone];
     let mut rows: Vec<[String; 4]> = all[..shown].iter().map(|entry| row(entry)).collect();
     if shown < all.len() {
         let rest = all[shown..].iter().map(|entry| share(entry)).sum();

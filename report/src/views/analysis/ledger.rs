@@ -10,9 +10,9 @@ use abbe_study::number::{fixed, percent, unbroken};
 /// Returns the ledger of position errors as a table.
 pub(super) fn ledger(report: &Report) -> Table {
     let tolerance = report.study.tolerance;
-    let mut header = vec!["source", "max", "RMS", "share", "worst at (the rest as at home)"];
+    let mut header = vec!["source", ">max", ">RMS", ">share", "worst at (the rest as at home)"];
     if tolerance.is_some() {
-        header.insert(3, "of tolerance");
+        header.insert(3, ">of tolerance");
     }
     let mut rows = Vec::new();
     let Ledger { sources, sums } = &report.ledger;
@@ -34,8 +34,11 @@ pub(super) fn ledger(report: &Report) -> Table {
         }
         rows.push(cells);
     }
-    let numbers = 1..header.len() - 1;
-    Table::listing(&header, rows, numbers)
+    let caption = format!(
+        "Norms of the errors of the tool point ({}): the largest, the root mean square, and the share of the judged error",
+        report.spec.length.symbol()
+    );
+    Table::listing(caption, &header, rows)
 }
 
 /// Returns the ledger of orientation errors in mrad, rows 4–6 and their norm; `None` if no source
@@ -48,11 +51,13 @@ pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
     let mut order = errors.iter().collect::<Vec<_>>();
     order.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
     let show = |value| unit::fixed(report, Measurand::Orientation, value);
-    let [first, second, third] = unit::row_names(report, Measurand::Orientation);
-    let mut header = vec!["source", first, second, third, "norm", "RMS", "worst at (the rest as at home)"];
+    let [first, second, third] =
+        unit::row_names(report, Measurand::Orientation).map(|name| format!(">{name}"));
+    let mut header =
+        vec!["source", &first, &second, &third, ">norm", ">RMS", "worst at (the rest as at home)"];
     let tolerance = report.study.orientation_tolerance;
     if tolerance.is_some() {
-        header.insert(5, "of tolerance");
+        header.insert(5, ">of tolerance");
     }
     let row = |name: &str, rows: [Option<f64>; 3], norm: Extreme, rms: Option<f64>| {
         // An error that is constant over the workspace has no worst configuration.
@@ -79,6 +84,6 @@ pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
         row("all together", [None; 3], combined.radius, both),
     ];
     let rows = alone.chain(together).collect();
-    let numbers = 1..header.len() - 1;
-    Some(Table::listing(&header, rows, numbers))
+    let caption = "Rows 4 to 6 of ΔX in mrad, largest over the workspace";
+    Some(Table::listing(caption, &header, rows))
 }

@@ -20,7 +20,7 @@ pub(in crate::views) use verdict::by_criterion;
 use verdict::{verdict_line, verdict_sentences};
 
 use crate::document::{Card, Document, Figure, Section, Verdict};
-use crate::unit::{self, decimals};
+use crate::unit::decimals;
 use crate::views::shared::changed;
 
 /// Number of unreachable configurations that are listed.
@@ -171,36 +171,20 @@ fn each_alone(report: &Report) -> Section {
 }
 
 fn ledger(report: &Report) -> Section {
-    let unit = report.spec.length.symbol();
-    let caption = format!(
-        "Norms of the errors of the tool point ({unit}): the largest, the root mean square, and the share of the judged error"
-    );
-    let section = Section::full("Ledger").table(ledger::ledger(report).titled(caption));
-    match ledger::orientation_ledger(report) {
-        Some(rotations) => {
-            section.table(rotations.titled("Rows 4 to 6 of ΔX in mrad, largest over the workspace"))
-        }
-        None => section,
-    }
+    let section = Section::full("Ledger").table(ledger::ledger(report));
+    ledger::orientation_ledger(report).into_iter().fold(section, Section::table)
 }
 
 /// Tabulates the budgets of the GUM; what holds for several is stated once.
 fn uncertainty(report: &Report) -> Section {
     let mut stated: Vec<String> = Vec::new();
     let budget = |section: Section, budget: &UncertaintyBudget| {
-        let (_, unit) = unit::display_unit(report, budget.measurand);
         let mut sentences = uncertainty::uncertainty_sentences(report, budget);
         sentences.retain(|sentence| !stated.contains(sentence));
         stated.extend_from_slice(&sentences);
         let section = section
-            .table(
-                uncertainty::uncertainty_contributions(report, budget)
-                    .titled(format!("Standard uncertainty of each source ({unit})")),
-            )
-            .table(
-                uncertainty::uncertainty_totals(report, budget)
-                    .titled(format!("Expanded uncertainty and bias ({unit})")),
-            );
+            .table(uncertainty::uncertainty_contributions(report, budget))
+            .table(uncertainty::uncertainty_totals(report, budget));
         sentences.into_iter().fold(section, |section, text| section.state("uncertainty", text))
     };
     report.uncertainty_budgets().fold(Section::full("Uncertainty budget"), budget)

@@ -6,7 +6,7 @@ use abbe_study::number::{self as numbers, fixed, percent, short};
 use abbe_study::study_file::{CombinedFigure, Metric, Subject};
 
 use super::agreement::agreement_text;
-use crate::document::{Column, Section, Table, number, words};
+use crate::document::{Section, Table};
 use crate::unit::decimals;
 
 /// Tabulates three metrics of every source, and under each what is published on it, in descending
@@ -27,8 +27,7 @@ pub(super) fn sources(report: &Report) -> Table {
         let about = about.into_iter().chain(std::iter::repeat(String::new()));
         rows.extend(about.zip(of).map(|(about, line)| [vec![about], line].concat()));
     }
-    let columns = [vec![words("source")], columns(report, None)].concat();
-    Table { caption: unit(report), columns, rows, rest: String::new() }
+    Table::listing(unit(report), &[vec!["source"], columns(report, None)].concat(), rows)
 }
 
 /// Tabulates all sources together.
@@ -52,7 +51,7 @@ pub(super) fn combined(report: &Report) -> Table {
         let [x, y, z] = axes.map(Some);
         rows.extend(lines(report, name, [x, y, z, Some(norm)], None, tolerance));
     }
-    Table { caption: unit(report), columns: columns(report, tolerance), rows, rest: String::new() }
+    Table::listing(unit(report), &columns(report, tolerance), rows)
 }
 
 fn unit(report: &Report) -> String {
@@ -61,14 +60,10 @@ fn unit(report: &Report) -> String {
 
 /// Returns the columns of metric, axes, norm, share of the tolerance and agreement; the last two if
 /// there are any.
-fn columns(report: &Report, tolerance: Option<f64>) -> Vec<Column> {
-    let share = tolerance.map(|_| number("of tolerance"));
-    let agreement = (!report.study.published.is_empty()).then(|| words("agreement"));
-    std::iter::once(words("figure"))
-        .chain(["x", "y", "z", "norm"].map(number))
-        .chain(share)
-        .chain(agreement)
-        .collect()
+fn columns(report: &Report, tolerance: Option<f64>) -> Vec<&'static str> {
+    let share = tolerance.map(|_| ">of tolerance");
+    let agreement = (!report.study.published.is_empty()).then(|| "agreement");
+    ["figure", ">x", ">y", ">z", ">norm"].into_iter().chain(share).chain(agreement).collect()
 }
 
 /// Formats figures, and below them the published ones, if there are any.
@@ -126,17 +121,10 @@ pub(super) fn monte_carlo(report: &Report) -> Section {
         [row(place, &sigma, 0), row("  standard error", &error, 1), row("  first order", &first_order, 0)]
     };
     let unit = report.spec.length.symbol();
-    let columns = [
-        words("at"),
-        number("50 %"),
-        number("95 %"),
-        number("99 %"),
-        number("largest"),
-        number("in ellipsoid"),
-    ];
+    let columns = ["at", ">50 %", ">95 %", ">99 %", ">largest", ">in ellipsoid"];
     let norms = Table::new(format!("Quantiles of the norm of the error ({unit})"), columns)
         .rows(drawn.results().into_iter().flat_map(norms));
-    let columns = [words("at"), number("σ x"), number("σ y"), number("σ z")];
+    let columns = ["at", ">σ x", ">σ y", ">σ z"];
     let caption = format!("Standard deviations ({unit})");
     let deviations = Table::new(caption, columns).rows(drawn.results().into_iter().flat_map(deviations));
     let explained = format!(

@@ -28,12 +28,14 @@ pub(super) fn uncertainty_contributions(report: &Report, budget: &UncertaintyBud
         }
         row
     };
-    let mut header = vec!["source", "value", "distribution", "divisor", "sensitivity", "u", "share of u²"];
+    let mut header =
+        vec!["source", "value", "distribution", ">divisor", ">sensitivity", ">u", ">share of u²"];
     if estimated {
-        header.insert(6, "ν");
+        header.insert(6, ">ν");
     }
-    let numbers = 3..header.len();
-    Table::listing(&header, budget.sources.iter().map(row).collect(), numbers)
+    let (_, unit) = unit::display_unit(report, measurand);
+    let caption = format!("Standard uncertainty of each source ({unit})");
+    Table::listing(caption, &header, budget.sources.iter().map(row).collect())
 }
 
 /// Returns the table of bias, u, k and U for each row and the norm. Has a column of effective
@@ -58,12 +60,13 @@ pub(super) fn uncertainty_totals(report: &Report, budget: &UncertaintyBudget) ->
         }
         row
     };
-    let mut header = vec!["", "u", "k", "U = k u", "bias", "|bias| + U"];
+    let mut header = vec!["", ">u", ">k", ">U = k u", ">bias", ">|bias| + U"];
     if estimated {
-        header.insert(2, "ν");
+        header.insert(2, ">ν");
     }
-    let numbers = 1..header.len();
-    Table::listing(&header, names.enumerate().map(row).collect(), numbers)
+    let (_, unit) = unit::display_unit(report, *measurand);
+    let caption = format!("Expanded uncertainty and bias ({unit})");
+    Table::listing(caption, &header, names.enumerate().map(row).collect())
 }
 
 /// Returns sentences on what the budget covers.

@@ -5,7 +5,7 @@ use abbe_spec::Spec;
 use abbe_study::check::{Chain, Link};
 use abbe_study::number::{short, trimmed};
 
-use crate::document::{Section, Table, number, words};
+use crate::document::{Section, Table};
 
 pub(super) fn sections(chain: &Chain, spec: &Spec) -> [Section; 2] {
     let length = spec.length.symbol();
@@ -19,13 +19,13 @@ pub(super) fn sections(chain: &Chain, spec: &Spec) -> [Section; 2] {
         Some([i.to_string(), link.name.clone(), theta, d, a, alpha, dh.convention.to_owned()])
     });
     let columns = [
-        words(""),
-        words("frame"),
-        number("theta"),
-        number(format!("d ({length})")),
-        number(format!("a ({length})")),
-        number("alpha"),
-        words("Denavit-Hartenberg"),
+        "",
+        "frame",
+        ">theta",
+        &format!(">d ({length})"),
+        &format!(">a ({length})"),
+        ">alpha",
+        "Denavit-Hartenberg",
     ];
     let numbers = Table::new("", columns).rows(dh);
     let others = numbered().filter(|(_, link)| link.dh.is_none()).map(|(i, Link { name, matrix, .. })| {
@@ -34,7 +34,7 @@ pub(super) fn sections(chain: &Chain, spec: &Spec) -> [Section; 2] {
     let tool = row(String::new(), named(Some(spec.tool_frame)), "tool point".to_owned(), &chain.tool);
     let home = row(String::new(), "F_0".to_owned(), "tool point".to_owned(), &chain.pose);
     let origin = format!("origin ({length})");
-    let columns = ["", "from", "to", "x axis", "y axis", "z axis", &origin].map(words);
+    let columns = ["", "from", "to", "x axis", "y axis", "z axis", &origin];
     let axes = Table::new("", columns).rows(others.chain([tool, home]));
     [
         Section::full("Nominal chain at home").table(numbers),

@@ -9,7 +9,7 @@ use abbe_study::check::{Identifiable, Law, Report};
 use abbe_study::number::{self, counted, quantity, short};
 
 use super::shared::{notes, some};
-use crate::document::{Document, Section, Table, first, number as figures, words};
+use crate::document::{Document, Section, Table, first};
 use joint::joint;
 
 /// Number of joints on the first screen.
@@ -86,7 +86,7 @@ fn joints(spec: &Spec) -> Table {
         let [_, limits, home] = joint(&sum, spec.length);
         [limit.sum.to_string(), "sum".to_owned(), limits, home, String::new()]
     });
-    let columns = ["joint", "kind", "limits", "home", "moves"].map(words);
+    let columns = ["joint", "kind", "limits", "home", "moves"];
     let all = spec.variables.len();
     let shown = if all > JOINTS { JOINTS - 1 } else { all };
     let mut table = Table::new("", columns).rows(rows.take(shown).chain(sums));
@@ -172,7 +172,7 @@ fn identifiable(counts: &[Identifiable]) -> String {
 fn parameters(spec: &Spec) -> Table {
     let rows =
         spec.parameters.iter().map(|p| [p.name.clone(), quantity(p.value, &p.unit), p.description.clone()]);
-    Table::new("", ["name", "nominal", "what"].map(words)).rows(rows)
+    Table::new("", ["name", "nominal", "what"]).rows(rows)
 }
 
 fn inputs(spec: &Spec) -> Table {
@@ -180,7 +180,7 @@ fn inputs(spec: &Spec) -> Table {
         let range = format!("{} {}", values(u), u.unit);
         [u.name.clone(), quantity(u.value, &u.unit), range, u.description.clone()]
     });
-    Table::new("", ["name", "nominal", "range", "what"].map(words)).rows(rows)
+    Table::new("", ["name", "nominal", "range", "what"]).rows(rows)
 }
 
 /// Returns the range of an input, or its levels.
@@ -196,12 +196,12 @@ fn sources_one_by_one(report: &Report) -> Table {
         let state = if source.enabled { "on" } else { "off" };
         [source.name.clone(), source.class.to_owned(), source.at.clone(), state.to_owned()]
     });
-    Table::new("", ["name", "class", "at", ""].map(words)).rows(rows)
+    Table::new("", ["name", "class", "at", ""]).rows(rows)
 }
 
 fn operations(report: &Report) -> Table {
     let rows = report.facts.operations.iter().map(|f| [f.function.to_owned(), f.operations.to_string()]);
-    Table::new("", [words("function"), figures("operations")]).rows(rows)
+    Table::new("", ["function", ">operations"]).rows(rows)
 }
 
 fn frames(spec: &Spec) -> Table {
@@ -216,7 +216,7 @@ fn frames(spec: &Spec) -> Table {
         [number, frame.name.clone(), variable.name.clone(), kind, limits, home]
     });
     if spec.is_serial() {
-        let columns = ["", "frame", "variable", "kind", "limits", "home"].map(words);
+        let columns = ["", "frame", "variable", "kind", "limits", "home"];
         return Table::new("", columns).rows(rows);
     }
     let parents = spec.frames.iter().map(|frame| match frame.parent {
@@ -239,7 +239,7 @@ fn frames(spec: &Spec) -> Table {
             home,
         ])
     });
-    let columns = ["", "frame", "hangs on", "variable", "kind", "limits", "home"].map(words);
+    let columns = ["", "frame", "hangs on", "variable", "kind", "limits", "home"];
     Table::new("", columns).rows(rows.chain(legs))
 }
 
@@ -250,7 +250,7 @@ fn iso_axes(report: &Report) -> Section {
         let carried = if axis.carries_workpiece { "workpiece" } else { "tool" };
         [axis.name.clone(), carried.to_owned(), x, y, z, s, r, p]
     });
-    let columns = ["frame", "carries", "e_x", "e_y", "e_z", "e_s", "e_r", "e_p"].map(words);
+    let columns = ["frame", "carries", "e_x", "e_y", "e_z", "e_s", "e_r", "e_p"];
     let slides = "Slides are taken to carry the tool, which a spec does not say: the errors of a slide that \
                   carries the workpiece have the opposite signs.";
     let section = Section::full("Errors of the axes by ISO 230-1").table(Table::new("", columns).rows(rows));
@@ -308,6 +308,6 @@ fn laws(report: &Report) -> Section {
         [law.law.to_owned(), value, bound, verdict.to_owned()]
     });
     let caption = format!("At {} configurations", report.configurations);
-    let columns = [words("law"), figures("found"), figures("expected"), words("")];
+    let columns = ["law", ">found", ">expected", ""];
     Section::full("Laws").table(Table::new(caption, columns).rows(rows))
 }

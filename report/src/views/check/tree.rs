@@ -5,7 +5,7 @@ use abbe_study::check::{Free, Loop, LoopModes, Mode, State, Tree};
 use abbe_study::number::{self, counted, digits, short};
 
 use super::joint::joint;
-use crate::document::{Section, Table, first, joined, number as figures, words};
+use crate::document::{Section, Table, first, joined};
 use crate::views::shared::dead_point;
 
 /// Number of loops and of variables named in a sentence.
@@ -29,8 +29,7 @@ pub(super) fn sections(tree: &Tree, spec: &Spec) -> Vec<Section> {
         let (frames, equations) = (format!("{first}, {second}"), closed.equations.to_string());
         [closed.name.clone(), frames, equations, closed.passive.join(" "), gaps(closed, spec)]
     });
-    let columns =
-        [words("loop"), words("frames"), figures("equations"), words("passive"), words("open at home")];
+    let columns = ["loop", "frames", ">equations", "passive", "open at home"];
     let loops = Table::new("", columns).rows(rows);
     let rows = tree.passive.iter().zip(&spec.passive).map(|(passive, variable)| {
         let [kind, limits, start] = joint(variable, spec.length);
@@ -38,7 +37,7 @@ pub(super) fn sections(tree: &Tree, spec: &Spec) -> Vec<Section> {
         let [_, _, value] = joint(&closed, spec.length);
         [passive.name.clone(), passive.frame.clone(), kind, limits, start, value]
     });
-    let columns = ["passive", "frame", "kind", "limits", "start", "at home"].map(words);
+    let columns = ["passive", "frame", "kind", "limits", "start", "at home"];
     let passive = Table::new("", columns).rows(rows);
     vec![
         freedoms,

@@ -6,8 +6,9 @@ use abbe_spec::option::TEST_FILE;
 use abbe_spec::{Fitted, Spec};
 use abbe_study::number::{self, counted, digits, error_unit, fixed, percent};
 
-use crate::document::{Section, Table, joined, number, words};
-use crate::views::shared::{angle_in_mrad, drift_clauses, p_value};
+use crate::document::{Section, Table, joined};
+use crate::unit::angle_in_mrad;
+use crate::views::shared::{drift_clauses, p_value};
 
 pub(super) fn accuracy(spec: &Spec, report: &Report) -> Section {
     let validation = match &report.test {
@@ -87,14 +88,7 @@ fn fitted_ranges(spec: &Spec, report: &Report) -> String {
 
 /// Tabulates the uncertainty of each instrument, or of positions and rotations.
 fn instruments(report: &Report) -> Table {
-    let columns = [
-        words("instrument"),
-        number("numbers"),
-        number("standard deviation"),
-        words(""),
-        number("residual / σ"),
-        words(""),
-    ];
+    let columns = ["instrument", ">numbers", ">standard deviation", "", ">residual / σ", ""];
     Table::new("", columns).rows(report.instruments.iter().chain(&report.coordinates).map(|instrument| {
         let (factor, unit) = angle_in_mrad(instrument.unit);
         let basis = if instrument.estimated { "estimated" } else { "stated" };
@@ -107,15 +101,8 @@ fn instruments(report: &Report) -> Table {
 
 /// Tabulates the known distances between instruments.
 fn known_distances(report: &Report) -> Table {
-    let columns = [
-        words("known distance between"),
-        words(""),
-        number("stated"),
-        number("standard deviation"),
-        number("found"),
-        words(""),
-        number("residual / σ"),
-    ];
+    let columns =
+        ["known distance between", "", ">stated", ">standard deviation", ">found", "", ">residual / σ"];
     Table::new("", columns).rows(report.known_distances.iter().map(|known| {
         let [a, b] = known.between.clone();
         let [stated, found] = [known.value, known.found].map(|value| digits(value, 7));
@@ -128,14 +115,7 @@ fn known_distances(report: &Report) -> Table {
 pub(super) fn profiles(spec: &Spec, report: &Report) -> Section {
     let section = Section::full("Joint profiles");
     let Some(profiles) = &report.profiles else { return section };
-    let columns = [
-        words("joint"),
-        words("range covered"),
-        number("rms"),
-        number("σ"),
-        words(""),
-        number("error without it"),
-    ];
+    let columns = ["joint", "range covered", ">rms", ">σ", "", ">error without it"];
     let range = |one: &JointProfile| {
         let [from, to] = one.range.map(|end| number::of_symbol(end, Symbol::Variable(one.variable), spec));
         format!("{from} … {to}")
@@ -171,8 +151,7 @@ pub(super) fn terms(report: &Report) -> Section {
         return section.state("no_term", report.cross_validation.constant.map(|_| line));
     }
     let (factor, unit) = error_unit(report.length);
-    let columns =
-        [words("in order of acceptance"), number("before"), number("after"), number("p of the test")];
+    let columns = ["in order of acceptance", ">before", ">after", ">p of the test"];
     let table = Table::new("", columns).rows(report.terms.iter().map(|term| {
         let [before, after] = [term.before, term.after].map(|value| fixed(factor * value, 4));
         [term.name.clone(), before, after, p_value(term.p)]

@@ -8,10 +8,9 @@ use abbe_spec::option::FULL;
 use abbe_study::number::{counted, digits, error_unit, fixed};
 
 use super::places::places;
-use crate::document::{Section, Table, first, number, words};
-use crate::views::shared::{
-    accepted, angle_in_mrad, drift_clauses, first_notes, first_rows, residual_verdict,
-};
+use crate::document::{Section, Table, first};
+use crate::unit::angle_in_mrad;
+use crate::views::shared::{accepted, drift_clauses, first_notes, first_rows, residual_verdict};
 
 /// Number of errors on the first screen.
 const SHOWN: usize = 5;
@@ -46,15 +45,7 @@ pub(super) fn answer(spec: &Spec, report: &Report) -> Section {
 fn sizes(report: &Report) -> Table {
     let (factor, unit) = error_unit(report.length);
     let what = if report.instruments.is_empty() { "position error" } else { "residual" };
-    let columns = [
-        words(what),
-        number("rows"),
-        number(format!("mean {unit}")),
-        number("std. error"),
-        number("rms"),
-        number("95 %"),
-        number("max"),
-    ];
+    let columns = [what, ">rows", &format!(">mean {unit}"), ">std. error", ">rms", ">95 %", ">max"];
     let row = |(name, rows, sizes): (String, usize, &Sizes)| {
         let error = sizes.standard_error.map_or("?".to_owned(), |error| fixed(factor * error, 4));
         let [mean, rms, p95, max] =
@@ -107,7 +98,7 @@ fn no_significant_error(report: &Report) -> Option<String> {
 
 fn significant(report: &Report) -> Table {
     let all = significant_errors(report);
-    let columns = [words("significant errors"), number("value"), number("± 1 σ"), words(""), words("or")];
+    let columns = ["significant errors", ">value", ">± 1 σ", "", "or"];
     let row = |parameter: &&Parameter| {
         let Written { name, .. } = parameter.as_written();
         let meaning = report.joint_errors.iter().find(|meaning| meaning.number == name);

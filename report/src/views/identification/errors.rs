@@ -6,8 +6,8 @@ use abbe_study::number::{digits, fixed};
 
 use super::answer::{estimate, of_machine, significance};
 use super::indistinguishable::combination;
-use crate::document::{Section, Table, joined, number, words};
-use crate::views::shared::angle_in_mrad;
+use crate::document::{Section, Table, joined};
+use crate::unit::angle_in_mrad;
 
 /// Number of alternatives in a sentence.
 const SHOWN: usize = 3;
@@ -53,8 +53,7 @@ pub(super) fn machine(report: &Report) -> Section {
 
 /// Lists estimates with their standard deviations.
 fn estimates(report: &Report) -> Table {
-    let columns =
-        [words("error"), words("of"), number("value"), number("σ"), words(""), number("value/σ"), words("")];
+    let columns = ["error", "of", ">value", ">σ", "", ">value/σ", ""];
     Table::new("Others act as these in every configuration", columns).rows(of_machine(report).map(
         |parameter| {
             let [value, deviation, unit] = estimate(report, parameter);

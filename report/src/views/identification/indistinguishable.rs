@@ -3,7 +3,7 @@
 use abbe_metrology::identify::{Indistinguishable, IndistinguishableReason as Reason};
 use abbe_study::number::digits;
 
-use crate::document::{Table, words};
+use crate::document::Table;
 
 /// Tabulates unknowns that cannot be distinguished.
 pub(in crate::views) fn indistinguishable(groups: &[Indistinguishable]) -> Table {
@@ -12,7 +12,7 @@ pub(in crate::views) fn indistinguishable(groups: &[Indistinguishable]) -> Table
         [reason(&groups[0].reason), sentences.join("\n")]
     };
     let rows = groups.chunk_by(|one, next| one.reason == next.reason).map(row);
-    Table::new("", [words("because"), words("indistinguishable errors")]).rows(rows)
+    Table::new("", ["because", "indistinguishable errors"]).rows(rows)
 }
 
 /// States the combination, such as `e_z1 acts as e_z2`.

@@ -4,12 +4,12 @@
 use abbe_metrology::identify::{FoundInstrument, PlacementAtStation, Report};
 use abbe_study::number::{digits, error_unit, fixed};
 
-use crate::document::{Table, number, words};
+use crate::document::Table;
 
 /// Tabulates all places that were fitted: positions in the frame that the map states them in.
 pub(super) fn places(report: &Report) -> Table {
     let (factor, unit) = error_unit(report.length);
-    let columns = [words("place"), number("x"), number("y"), number("z"), words(""), words("± 1 σ")];
+    let columns = ["place", ">x", ">y", ">z", "", "± 1 σ"];
     let row = |name: String, at: [f64; 3], variances: [f64; 3]| {
         let [x, y, z] = at.map(|value| fixed(factor * value, 3));
         let deviations = variances.map(|variance| digits(factor * variance.max(0.0).sqrt(), 2));

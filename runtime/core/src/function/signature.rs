@@ -102,6 +102,20 @@ impl Array {
     }
 }
 
+/// The counts by their constants in generated modules.
+impl Count {
+    pub(crate) const FRAMES: Self = Self::Frames;
+    pub(crate) const ERRORS: Self = Self::Errors;
+    pub(crate) const DISTINCT: Self = Self::Distinct;
+    pub(crate) const VARIABLES: Self = Self::Variables;
+    pub(crate) const PASSIVE: Self = Self::Passive;
+    pub(crate) const PARAMETERS: Self = Self::Parameters;
+    pub(crate) const INPUTS: Self = Self::Inputs;
+    pub(crate) const EFFECTS: Self = Self::Effects;
+    pub(crate) const SOURCES: Self = Self::Sources;
+    pub(crate) const SOLUTIONS: Self = Self::Solutions;
+}
+
 impl Count {
     /// Returns the value of the dimension for a manipulator.
     pub fn value(self, description: &Description) -> usize {

@@ -463,41 +463,14 @@ macro_rules! counts {
 
 /// Expands to a dimension from its constant in generated modules.
 macro_rules! count {
-    (FRAMES) => {
-        $crate::function::Count::Frames
-    };
     (FRAMES + 1) => {
         $crate::function::Count::FramesAndTool
     };
-    (ERRORS) => {
-        $crate::function::Count::Errors
-    };
-    (DISTINCT) => {
-        $crate::function::Count::Distinct
-    };
-    (VARIABLES) => {
-        $crate::function::Count::Variables
-    };
-    (PASSIVE) => {
-        $crate::function::Count::Passive
-    };
-    (PARAMETERS) => {
-        $crate::function::Count::Parameters
-    };
-    (INPUTS) => {
-        $crate::function::Count::Inputs
-    };
-    (EFFECTS) => {
-        $crate::function::Count::Effects
-    };
-    (SOURCES) => {
-        $crate::function::Count::Sources
-    };
-    (SOLUTIONS) => {
-        $crate::function::Count::Solutions
-    };
     ($exactly:literal) => {
         $crate::function::Count::Exactly($exactly)
+    };
+    ($count:ident) => {
+        $crate::function::Count::$count
     };
 }
 

@@ -79,59 +79,39 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
     fn values(&self, function: Function, third: &[f64], magnitudes: &[f64]) -> Result<Vec<f64>, Error> {
         let Self { manipulator, description, q, s } = *self;
         let mut values = match function {
-            Function::Transforms => flat(&self.transforms()?),
-            Function::Pose => flat(&[manipulator.pose(q, s)?]),
             Function::ErrorJacobian => {
                 let (pose, columns) = self.error_jacobian()?;
                 [flat(&[pose]), columns.concat()].concat()
             }
-            Function::JointJacobian => {
-                let (pose, columns) = self.joint_jacobian()?;
-                [flat(&[pose]), columns.concat()].concat()
-            }
-            Function::ParameterJacobian => {
-                let mut columns = vec![[0.0; 6]; s.len()];
-                let pose = manipulator.parameter_jacobian(q, s, &mut columns)?;
-                [flat(&[pose]), columns.concat()].concat()
-            }
-            Function::Effects => self.effects(third)?,
-            Function::GeneralizedErrors => self.generalized_errors(third)?.concat(),
             Function::ErrorJacobianDistinct => self.distinct()?,
             Function::Displacement => self.displacement(third)?.to_vec(),
             Function::Covariance => self.covariance(third)?.concat(),
             Function::PredictedDisplacement => {
-                self.displacement(&self.generalized_errors(third)?.concat())?.to_vec()
+                self.displacement(&self.evaluated(Function::GeneralizedErrors, third)?)?.to_vec()
             }
             Function::SourceDisplacements => self.source_displacements(third)?.concat(),
             Function::RealPose => flat(&[self.real_pose(third)?]),
             Function::DrawnPose => flat(&[drawn_pose(self.manipulator, q, s, third, magnitudes)?]),
-            Function::Passive => {
-                let mut passive = vec![0.0; description.passive().count()];
-                manipulator.passive(q, s, &mut passive)?;
-                passive
-            }
             Function::DisplacedPose => {
                 let errors: Vec<[f64; 6]> =
                     third.chunks_exact(6).map(|six| core::array::from_fn(|i| six[i])).collect();
                 flat(&[manipulator.displaced_pose(q, s, &errors)?])
             }
-            Function::LegForces => {
-                let mut forces = vec![0.0; description.passive().count()];
-                manipulator.leg_forces(q, s, third, &mut forces)?;
-                forces
-            }
-            Function::Inverse => {
-                let target = Pose(core::array::from_fn(|i| core::array::from_fn(|j| third[3 * i + j])));
-                let mut solutions = vec![0.0; description.solutions * q.len()];
-                let mut found = vec![0.0; description.solutions];
-                manipulator.inverse(q, s, &target, &mut solutions, &mut found)?;
-                [solutions, found].concat()
-            }
             Function::CompensatorStep => {
-                let (pose, columns) = self.joint_jacobian()?;
+                let mut columns = vec![[0.0; 6]; q.len()];
+                let pose = manipulator.joint_jacobian(q, s, &mut columns)?;
                 let twists = columns.iter().flat_map(|column| twist(description.orientation, &pose, column));
                 flat(&[self.real_pose(third)?]).into_iter().chain(twists).collect()
             }
+            Function::Transforms
+            | Function::Pose
+            | Function::JointJacobian
+            | Function::ParameterJacobian
+            | Function::Effects
+            | Function::GeneralizedErrors
+            | Function::Passive
+            | Function::LegForces
+            | Function::Inverse => self.evaluated(function, third)?,
         };
         if function.signature().has_margin(description.orientation) {
             values.push(euler_margin(description.orientation, &manipulator.pose(q, s)?));
@@ -139,10 +119,18 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
         Ok(values)
     }
 
-    fn transforms(&self) -> Result<Vec<Pose>, Error> {
-        let mut transforms = vec![Pose::IDENTITY; self.description.frames.len() + 1];
-        self.manipulator.transforms(self.q, self.s, &mut transforms)?;
-        Ok(transforms)
+    /// Returns the results of a function without the margin. Manipulators need not have functions
+    /// without results.
+    fn evaluated(&self, function: Function, third: &[f64]) -> Result<Vec<f64>, Error> {
+        let signature = function.signature();
+        let arrays = signature.results.iter();
+        let mut values: Vec<Vec<f64>> = arrays.map(|array| vec![0.0; array.len(self.description)]).collect();
+        let mut results: Vec<&mut [f64]> = values.iter_mut().map(Vec::as_mut_slice).collect();
+        if results.iter().any(|result| !result.is_empty()) {
+            let given = &[self.q, self.s, third][..signature.arguments.len()];
+            self.manipulator.evaluate(function, given, &mut results)?;
+        }
+        Ok(values.concat())
     }
 
     /// Returns the pose and `J_e`. Singular Euler rows are NaN.
@@ -155,24 +143,6 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
             }
             pose => Ok((pose?, columns)),
         }
-    }
-
-    fn joint_jacobian(&self) -> Result<(Pose, Vec<[f64; 6]>), Error> {
-        let mut columns = vec![[0.0; 6]; self.q.len()];
-        let pose = self.manipulator.joint_jacobian(self.q, self.s, &mut columns)?;
-        Ok((pose, columns))
-    }
-
-    fn effects(&self, u: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut effects = vec![0.0; self.description.effects.len()];
-        self.manipulator.effects(self.q, self.s, u, &mut effects)?;
-        Ok(effects)
-    }
-
-    fn generalized_errors(&self, u: &[f64]) -> Result<Vec<[f64; 6]>, Error> {
-        let mut errors = vec![[0.0; 6]; self.description.frames.len()];
-        self.manipulator.generalized_errors(self.q, self.s, u, &mut errors)?;
-        Ok(errors)
     }
 
     /// Returns the pose, then the distinct numbers of each frame in the order of
@@ -213,7 +183,7 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
     }
 
     fn source_displacements(&self, u: &[f64]) -> Result<Vec<[f64; 6]>, Error> {
-        let ((_, columns), effects) = (self.error_jacobian()?, self.effects(u)?);
+        let ((_, columns), effects) = (self.error_jacobian()?, self.evaluated(Function::Effects, u)?);
         let mut displacements = vec![[0.0; 6]; self.description.sources.len()];
         for (effect, value) in self.description.effects.iter().zip(effects) {
             let column = &columns[6 * effect.frame + effect.component.index()];

@@ -1,7 +1,7 @@
 //! Evaluation of a function of a manipulator over tiles.
 
 use super::{Kernel, Register, Tiles};
-use crate::{Description, Error, Function, Manipulator, Quantity, Scalar};
+use crate::{Description, Error, Function, Manipulator, Quantity, Scalar, checks};
 
 /// [`Function`] as a type, so that [`run`] compiles this function
 /// only.
@@ -75,15 +75,9 @@ pub fn check(
     results: &Tiles,
 ) -> Result<(), Error> {
     let signature = function.signature();
-    for (quantity, expected, found) in [
-        (Quantity::Arguments, signature.arguments_len(description), arguments.rows()),
-        (Quantity::Results, signature.results_len(description), results.rows()),
-        (Quantity::Configurations, arguments.count(), results.count()),
-        (Quantity::Lanes, arguments.instruction_set().width(), results.instruction_set().width()),
-    ] {
-        if expected != found {
-            return Err(Error::Count { quantity, expected, found });
-        }
-    }
-    Ok(())
+    let width = |tiles: &Tiles| tiles.instruction_set().width();
+    checks::length(Quantity::Arguments, [signature.arguments_len(description), 1], arguments.rows())?;
+    checks::length(Quantity::Results, [signature.results_len(description), 1], results.rows())?;
+    checks::length(Quantity::Configurations, [arguments.count(), 1], results.count())?;
+    checks::length(Quantity::Lanes, [width(arguments), 1], width(results))
 }

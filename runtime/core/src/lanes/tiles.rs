@@ -212,7 +212,8 @@ impl Tiles {
     /// Panics if the tile is out of range, or the lanes are those of another instruction set.
     #[inline(always)]
     pub fn tile<R: Register>(&self, tile: usize) -> &[Lanes<R>] {
-        let (lanes, _) = self.lanes::<R>();
+        assert!(R::WIDTH == self.set.width(), "lanes of another instruction set");
+        let lanes = bytemuck::cast_slice::<Line, Lanes<R>>(&self.lines);
         &lanes[tile * self.rows..][..self.rows]
     }
 
@@ -226,12 +227,6 @@ impl Tiles {
         assert!(R::WIDTH == self.set.width(), "lanes of another instruction set");
         let lanes = bytemuck::cast_slice_mut::<Line, Lanes<R>>(&mut self.lines);
         &mut lanes[tile * self.rows..][..self.rows]
-    }
-
-    #[inline(always)]
-    fn lanes<R: Register>(&self) -> (&[Lanes<R>], usize) {
-        assert!(R::WIDTH == self.set.width(), "lanes of another instruction set");
-        (bytemuck::cast_slice(&self.lines), self.rows)
     }
 
     fn numbers(&self) -> &[f64] {

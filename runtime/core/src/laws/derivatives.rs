@@ -4,9 +4,7 @@ use super::differences::derivative;
 use super::samples::{Sample, Subject};
 use super::{Discrepancy, Failure};
 use crate::chain::displacement;
-use crate::{
-    Component, Description, Error, Manipulator, Orientation, Pose, deviation, drawn_pose, tool_pose,
-};
+use crate::{Component, Description, Error, Manipulator, Pose, deviation, drawn_pose, tool_pose};
 
 /// First step of the differences, in rad or arm lengths.
 const STEP: f64 = 0.1;
@@ -31,7 +29,6 @@ const DIRECTIONS: usize = 60;
 /// directions as in [`joint_jacobian`].
 pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
-    let orientation = description.orientation;
     let count = 6 * description.frames.len();
     let has_loops = description.has_loops();
     compare(manipulator, samples, count, |subject, sample, at, columns| {
@@ -39,15 +36,10 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
         let units = Component::ALL.map(|component| if component.is_rotation() { 1.0 } else { subject.arm });
         if has_loops {
             let units: Vec<f64> = units.into_iter().cycle().take(count).collect();
-            let expected = directions(units.into_iter(), sample).into_iter().map(|direction| {
-                let real = |step: f64| {
-                    let errors = direction.from(&vec![0.0; count], step);
-                    subject.displaced_pose(at, errors.as_chunks().0).ok()
-                };
-                let found = direction.sum(columns);
-                (found, differences(subject, orientation, at, found, real))
-            });
-            return Ok(expected.collect());
+            let directions = directions(units.into_iter(), sample);
+            return Ok(along(subject, &directions, at, columns, &vec![0.0; count], |errors| {
+                subject.displaced_pose(at, errors.as_chunks().0).ok()
+            }));
         }
         let factors = factors(description, &at.transforms);
         let mut expected = Vec::with_capacity(columns.len());
@@ -60,7 +52,7 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
                     Some(factors[frame].map_or(at.pose, moved))
                 };
                 let found = column.map(|entry| entry * unit);
-                expected.push((found, differences(subject, orientation, at, found, real)));
+                expected.push((found, differences(subject, at, found, real)));
             }
         }
         Ok(expected)
@@ -96,18 +88,10 @@ pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
     compare(manipulator, samples, description.variables.len(), |subject, sample, at, columns| {
         manipulator.joint_jacobian(&at.given.q, &at.given.s, columns)?;
         let units = description.variables.iter().map(|variable| variable.kind.either(1.0, subject.arm));
-        let expected = directions(units, sample).into_iter().map(|direction| {
-            let moved = |step: f64| {
-                let q = direction.from(&at.given.q, step);
-                subject
-                    .transforms(&q, &at.given.s)
-                    .ok()
-                    .map(|transforms| tool_pose(description, &transforms, &[]))
-            };
-            let found = direction.sum(columns);
-            (found, differences(subject, description.orientation, at, found, moved))
-        });
-        Ok(expected.collect())
+        let tool = |transforms: Vec<Pose>| tool_pose(description, &transforms, &[]);
+        Ok(along(subject, &directions(units, sample), at, columns, &at.given.q, |q| {
+            subject.transforms(q, &at.given.s).ok().map(tool)
+        }))
     })
 }
 
@@ -121,18 +105,10 @@ pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Resu
             .parameters
             .iter()
             .map(|parameter| if parameter.unit == description.length.symbol() { subject.arm } else { 1.0 });
-        let expected = directions(units, sample).into_iter().map(|direction| {
-            let changed = |step: f64| {
-                let s = direction.from(&at.given.s, step);
-                subject
-                    .transforms(&at.given.q, &s)
-                    .ok()
-                    .map(|transforms| tool_pose(description, &transforms, &[]))
-            };
-            let found = direction.sum(columns);
-            (found, differences(subject, description.orientation, at, found, changed))
-        });
-        Ok(expected.collect())
+        let tool = |transforms: Vec<Pose>| tool_pose(description, &transforms, &[]);
+        Ok(along(subject, &directions(units, sample), at, columns, &at.given.s, |s| {
+            subject.transforms(&at.given.q, s).ok().map(tool)
+        }))
     })
 }
 
@@ -166,7 +142,7 @@ pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Re
                 drawn_pose(manipulator, &at.given.q, &at.given.s, &at.given.u, &magnitudes).ok()
             };
             let found = columns[source].map(|entry| entry * unit);
-            (found, differences(subject, description.orientation, at, found, real))
+            (found, differences(subject, at, found, real))
         });
         Ok(expected.collect())
     })
@@ -209,15 +185,31 @@ fn directions(units: impl ExactSizeIterator<Item = f64>, sample: usize) -> Vec<D
     directions
 }
 
+/// Returns the derivatives of a pose from `values` on along directions.
+fn along(
+    subject: &Subject,
+    directions: &[Direction],
+    at: &Sample,
+    columns: &[[f64; 6]],
+    values: &[f64],
+    pose: impl Fn(&[f64]) -> Option<Pose>,
+) -> Expected {
+    let derivatives = directions.iter().map(|direction| {
+        let found = direction.sum(columns);
+        (found, differences(subject, at, found, |step| pose(&direction.from(values, step))))
+    });
+    derivatives.collect()
+}
+
 /// Returns the derivative of a pose, lengths in arm lengths. If long and short steps disagree,
 /// returns the derivative nearer to `column`.
 fn differences(
     subject: &Subject,
-    orientation: Orientation,
     at: &Sample,
     column: [f64; 6],
     pose: impl Fn(f64) -> Option<Pose>,
 ) -> Option<[f64; 6]> {
+    let orientation = subject.manipulator.description().orientation;
     let by = |step: f64| {
         derivative(step * at.margin, |step| {
             pose(step).map(|pose| subject.scaled(deviation(orientation, &at.pose, &pose)))

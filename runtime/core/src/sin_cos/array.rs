@@ -16,32 +16,22 @@ impl Array {
     }
 }
 
-impl Add for Array {
-    type Output = Self;
+macro_rules! operator {
+    ($trait:ident::$name:ident $sign:tt) => {
+        impl $trait for Array {
+            type Output = Self;
 
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| a + b)
-    }
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                self.zip(other, |a, b| a $sign b)
+            }
+        }
+    };
 }
 
-impl Sub for Array {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b| a - b)
-    }
-}
-
-impl Mul for Array {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b| a * b)
-    }
-}
+operator!(Add::add+);
+operator!(Sub::sub -);
+operator!(Mul::mul *);
 
 impl Pair for Array {
     #[inline(always)]
@@ -61,16 +51,6 @@ impl Real for Array {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self([value; 2])
-    }
-
-    #[inline(always)]
-    fn times_plus(self, b: Self, c: Self) -> Self {
-        self * b + c
-    }
-
-    #[inline(always)]
-    fn times_from(self, b: Self, c: Self) -> Self {
-        c - self * b
     }
 
     #[inline(always)]

@@ -6,7 +6,7 @@ use abbe_core::Component;
 use super::keys::{COVARIANCE, COVARIANCE_OF};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
+use crate::expr::{Dimension, Scope, Symbol};
 use crate::manipulator::{Cause, ChainNumber, Covariance, Frame, Identified, Source};
 use crate::value::read_name;
 
@@ -21,10 +21,9 @@ pub(super) fn read_covariance(
     let section = item.table("[covariance]", &[&COVARIANCE])?;
     let (of, rows) = (section.required("of"), section.required("rows"));
     let (of, rows_item) = (of?, rows?);
-    let mut all = Vec::new();
-    for item in of.array("an array of tables `{ source = \"…\" }`")? {
-        all.push(identified(&item, frames, sources, scope)?);
-    }
+    let all = of.array("an array of tables `{ source = \"…\" }`")?;
+    let all = all.iter().map(|item| identified(item, frames, sources, scope));
+    let all = all.collect::<Option<Vec<_>>>()?;
     let rows = numbers(&rows_item, scope)?;
     let count = all.len();
     let square = rows.len() == count && rows.iter().all(|row| row.len() == count);
@@ -43,17 +42,9 @@ pub(super) fn read_covariance(
 
 /// Reads rows of numbers.
 fn numbers(item: &Item<'_>, scope: &Scope) -> Option<Vec<Vec<f64>>> {
-    let mut rows = Vec::new();
-    for row in item.array("rows of numbers")? {
-        let mut numbers = Vec::new();
-        for number in row.array("numbers")? {
-            let entry =
-                Entry { dimension: Some(Dimension::NONE), what: "a covariance", names: Allowed::Nothing };
-            numbers.push(number.constant(scope, entry)?.0);
-        }
-        rows.push(numbers);
-    }
-    Some(rows)
+    let number = |item: &Item<'_>| item.amount(scope, Dimension::NONE, "a covariance");
+    let numbers = |row: &Item<'_>| row.array("numbers")?.iter().map(number).collect();
+    item.array("rows of numbers")?.iter().map(numbers).collect()
 }
 
 fn identified(item: &Item<'_>, frames: &[Frame], sources: &[Source], scope: &Scope) -> Option<Identified> {

@@ -101,10 +101,9 @@ impl Declarations {
                 Some((item, range.to_vec()))
             }
             (None, Some(item)) => {
-                let entry = Entry { dimension: Some(dimension), what: "a level", names: Allowed::Nothing };
                 let items = item.array("a list of values")?;
-                let levels = items.iter().map(|one| one.constant(&self.scope, entry));
-                let mut levels: Vec<f64> = levels.map(|read| Some(read?.0)).collect::<Option<_>>()?;
+                let levels = items.iter().map(|one| one.amount(&self.scope, dimension, "a level"));
+                let mut levels = levels.collect::<Option<Vec<f64>>>()?;
                 levels.sort_by(f64::total_cmp);
                 levels.dedup();
                 if levels.is_empty() {
@@ -124,8 +123,7 @@ impl Declarations {
     fn uncertainty(&self, table: &Section<'_>, dimension: Dimension) -> f64 {
         let Some(item) = table.get("uncertainty") else { return 0.0 };
         let what = "the uncertainty of an input";
-        let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
-        let Some((value, _)) = item.constant(&self.scope, entry) else { return 0.0 };
+        let Some(value) = item.amount(&self.scope, dimension, what) else { return 0.0 };
         if value <= 0.0 {
             let help = "write the standard uncertainty of the input, or leave it out if the value is exact";
             let mistake = Diagnostic::new(item.span(), "`uncertainty` must be positive");
@@ -171,9 +169,7 @@ impl Declarations {
             }
             let home_item = table.get("home");
             if let Some(item) = &home_item {
-                let expected =
-                    Entry { dimension: Some(dimension), what: "the home value", names: Allowed::Nothing };
-                home = item.constant(&self.scope, expected).map_or(home, |read| read.0);
+                home = item.amount(&self.scope, dimension, "the home value").unwrap_or(home);
             }
             if is_meant && !(limits[0]..=limits[1]).contains(&home) {
                 let span = home_item.map(|item| item.span()).or(entry.map(|entry| entry.span()));
@@ -229,10 +225,9 @@ impl Declarations {
     /// Reads the two ends of an interval, the lower one first.
     pub(super) fn interval(&self, item: &Item<'_>, dimension: Dimension) -> Option<[f64; 2]> {
         let what = format!("an end of `{}`", item.key);
-        let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
         let ends: [Item<'_>; 2] = item.entries("two numbers, lower and upper")?;
-        let [lower, upper] = ends.map(|end| end.constant(&self.scope, entry));
-        let (lower, upper) = (lower?.0, upper?.0);
+        let [lower, upper] = ends.map(|end| end.amount(&self.scope, dimension, &what));
+        let (lower, upper) = (lower?, upper?);
         if lower > upper {
             let help = "write the lower end first";
             let mistake = Diagnostic::new(item.span(), format!("the ends of `{}` are reversed", item.key));

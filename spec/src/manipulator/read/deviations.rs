@@ -200,11 +200,8 @@ fn read_numbers(section: &Section<'_>, place: &Item<'_>, chain: Chain<'_>) -> Op
     for number in DhNumber::ALL {
         let Some(item) = table.get(number.name()) else { continue };
         let what = format!("the error of `{}`", number.name());
-        let entry = Entry {
-            dimension: Some(motion_dimension(number.motion().0)),
-            what: &what,
-            names: Allowed::Everything,
-        };
+        let dimension = Some(motion_dimension(number.motion().0));
+        let entry = Entry { dimension, what: &what, names: Allowed::Everything };
         match item.expression(chain.scope, entry) {
             Some(error) => {
                 if number.motion().0 == Motion::Rotation {

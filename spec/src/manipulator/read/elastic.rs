@@ -23,10 +23,7 @@ pub(super) fn read_beam(item: &Item<'_>, scope: &Scope) -> Option<Beam> {
         let item = if required { Some(table.required(key)?) } else { table.get(key) };
         let what = format!("`{key}`");
         let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
-        match item {
-            Some(item) => item.expression(scope, entry).map(Some),
-            None => Some(None),
-        }
+        item.map_or(Some(None), |item| item.expression(scope, entry).map(Some))
     };
     let stiffness = Dimension::FORCE_TIMES_AREA;
     let length = quantity("length", Dimension::LENGTH, true);

@@ -182,9 +182,7 @@ fn about_axis(
     let mut axis = [1.0, 0.0, 0.0];
     if let Some(item) = item {
         let entries: [Item<'_>; 3] = item.entries("three numbers")?;
-        let what = "an entry of `axis`";
-        let expected = Entry { dimension: Some(Dimension::NONE), what, names: Allowed::Nothing };
-        let read = entries.map(|entry| entry.constant(scope, expected).map(|read| read.0));
+        let read = entries.map(|entry| entry.amount(scope, Dimension::NONE, "an entry of `axis`"));
         let [Some(x), Some(y), Some(z)] = read else {
             return None;
         };

@@ -41,12 +41,8 @@ fn read_load(section: &Section<'_>, tree: Tree<'_>, scope: &Scope) -> Option<Loa
         section.document.mistake(mistake.label("the axes of `force` and `moment`").help(help));
     }
     let mass = optional(mass, |item| {
-        let entry = Entry {
-            dimension: Some(Dimension::MASS),
-            what: "the mass of a load",
-            names: Allowed::Everything,
-        };
-        item.expression(scope, entry)
+        let what = "the mass of a load";
+        item.expression(scope, Entry { dimension: Some(Dimension::MASS), what, names: Allowed::Everything })
     });
     let force =
         optional(force, |item| vector(item, Dimension::FORCE, "a component of a load's force", scope));
@@ -67,10 +63,7 @@ fn read_load(section: &Section<'_>, tree: Tree<'_>, scope: &Scope) -> Option<Loa
 
 /// Reads an item if there is one.
 fn optional<'d, T>(item: Option<Item<'d>>, read: impl FnOnce(&Item<'d>) -> Option<T>) -> Option<Option<T>> {
-    match item {
-        Some(item) => read(&item).map(Some),
-        None => Some(None),
-    }
+    item.map_or(Some(None), |item| read(&item).map(Some))
 }
 
 /// Reads `point = "tool"`, for a load on the frame that carries the tool.
@@ -95,8 +88,7 @@ pub(super) fn read_gravity(item: &Item<'_>, scope: &Scope) -> Option<[Expression
 fn vector(item: &Item<'_>, dimension: Dimension, what: &str, scope: &Scope) -> Option<[Expression; 3]> {
     let entries: [Item<'_>; 3] = item.entries("three numbers")?;
     let entry = Entry { dimension: Some(dimension), what, names: Allowed::Everything };
-    let read = entries.map(|item| item.expression(scope, entry));
-    let [x, y, z] = read;
+    let [x, y, z] = entries.map(|item| item.expression(scope, entry));
     Some([x?, y?, z?])
 }
 

@@ -9,7 +9,7 @@ use super::effects::read_effect;
 use super::keys;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, Expression};
+use crate::expr::{Dimension, Expression};
 use crate::keys::Keys;
 use crate::manipulator::names::read_title;
 use crate::manipulator::{Cause, Deviation, Effect, Magnitude, Source, Uncertain};
@@ -226,9 +226,7 @@ fn read_degrees_of_freedom(section: &Section<'_>, class: Option<Class>, chain: C
 
 /// Reads a positive number of degrees of freedom.
 fn positive(item: &Item<'_>, chain: Chain<'_>) -> Option<f64> {
-    let what = "`degrees_of_freedom`";
-    let entry = Entry { dimension: Some(Dimension::NONE), what, names: Allowed::Nothing };
-    let (number, _) = item.constant(chain.scope, entry)?;
+    let number = item.amount(chain.scope, Dimension::NONE, "`degrees_of_freedom`")?;
     if number > 0.0 {
         return Some(number);
     }
@@ -244,9 +242,7 @@ fn read_magnitude(item: &Item<'_>, class: Option<Class>, chain: Chain<'_>) -> Op
     }
     let table = item.table("`magnitude`", &[&keys::MAGNITUDE])?;
     let number = |item: &Item<'_>| {
-        let what = format!("`{}` of a magnitude", item.key);
-        let entry = Entry { dimension: Some(Dimension::NONE), what: &what, names: Allowed::Nothing };
-        item.constant(chain.scope, entry).map(|read| read.0)
+        item.amount(chain.scope, Dimension::NONE, &format!("`{}` of a magnitude", item.key))
     };
     let value = table.get("value").map_or(Some(1.0), |item| number(&item))?;
     let standard_deviation = match table.get("standard_deviation") {

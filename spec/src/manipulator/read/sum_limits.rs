@@ -49,10 +49,7 @@ fn read_sum_limit(section: &Section<'_>, declarations: &Declarations) -> Option<
     }
     let [lower, upper] = match (section.get("limits"), section.get("equals")) {
         (Some(limits), None) => declarations.interval(&limits, dimension)?,
-        (None, Some(value)) => {
-            let entry = Entry { dimension: Some(dimension), what: "the sum", names: Allowed::Nothing };
-            [value.constant(&declarations.scope, entry)?.0; 2]
-        }
+        (None, Some(value)) => [value.amount(&declarations.scope, dimension, "the sum")?; 2],
         _ => {
             let message = format!("{} needs either `limits` or `equals`", section.name);
             let help = "write `limits = [SMALLEST, LARGEST]`, or `equals = 0` for joints that move together";
