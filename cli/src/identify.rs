@@ -53,8 +53,8 @@ pub(crate) struct Identify {
     #[arg(long, value_parser = named(LOSSES), default_value = LOSSES.name(Loss::default()))]
     robust: Loss,
     /// Prior standard deviation of the errors, relative to the length of the arm for offsets and in
-    /// rad for angles: `auto` for 0.001 times a scale that the data choose, a number (0 holds them at
-    /// zero), or `spec` for the spec's random sources. Additional terms have 0.001 at most
+    /// rad for angles: `auto` for 0.001 times a scale that the data choose, a number (0 holds them
+    /// at zero), or `spec` for the spec's random sources. Additional terms have 0.001 at most
     #[arg(long, value_name = "SHARE", default_value_t)]
     prior: Prior,
     /// Acceptance limits on mean, rms, p95 and max of the position error on data that nothing was

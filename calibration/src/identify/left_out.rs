@@ -10,8 +10,8 @@
 //!
 //! so that, on the fold, the right side becomes the residual under the fit of the others. For a
 //! group g that is not yet included, the same products give `N = ⟨g, g⟩` and `b = ⟨g, r⟩`, both
-//! reduced by the included columns, and its residual is `r − g N⁻¹ b`. Rows of known distances and of
-//! the prior belong to no fold.
+//! reduced by the included columns, and its residual is `r − g N⁻¹ b`. Rows of known distances and
+//! of the prior belong to no fold.
 
 use std::ops::Range;
 
@@ -30,8 +30,8 @@ const NEW: f64 = 1e-9;
 
 /// Columns and their residuals, fold by fold.
 pub(super) struct LeftOut {
-    /// Columns of unit length, the right side last; rows are sorted by fold, and those of no fold are
-    /// last.
+    /// Columns of unit length, the right side last; rows are sorted by fold, and those of no fold
+    /// are last.
     columns: DMatrix<f64>,
     /// Columns reduced, on each fold, by the fit of the other folds.
     rest: DMatrix<f64>,

@@ -210,14 +210,14 @@ impl<'a> Model<'a> {
     ///
     /// They are standard deviations about zero for [`Options::priors`](super::Options::priors).
     /// Places of base and tool are known to a hundredth of the length of the arm and of a radian,
-    /// those of fixtures to that length, their directions to about one degree, and intrinsic
-    /// parameters to what lenses have; zeros and magnitudes have none.
+    /// those of fixtures to a tenth of that length, their directions to about one degree, and
+    /// intrinsic parameters to what lenses have; zeros and magnitudes have none.
     pub fn priors(&self, share: f64) -> Result<Vec<Option<f64>>, Failure> {
         let length = self.arm_length()?;
         let prior = |unknown: &Unknown| match unknown {
             Unknown::Error(_, component) if component.is_rotation() => Some(share),
             Unknown::Error(..) => Some(share * length),
-            Unknown::Fixture(fixture, _) => self.direction_uncertainty(*fixture).or(Some(length)),
+            Unknown::Fixture(fixture, _) => self.direction_uncertainty(*fixture).or(Some(0.1 * length)),
             Unknown::Intrinsic(parameter) => self.camera.map(|camera| camera.expected(*parameter)),
             unknown @ (Unknown::Base(..) | Unknown::Tool(..)) if unknown.is_rotation() => Some(STATED_PLACE),
             Unknown::Base(..) | Unknown::Tool(..) | Unknown::Target(..) => Some(STATED_PLACE * length),

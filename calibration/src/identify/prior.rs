@@ -44,8 +44,8 @@ impl Basis {
         deviations: &[Option<f64>],
     ) -> Result<Self, Failure> {
         let is_placement = |k: &usize| model.unknowns[*k].is_placement();
-        // A place that does not move a number as far as it is uncertain stays as stated: only terms of
-        // second order tell where it is.
+        // A place that does not move a number as far as it is uncertain stays as stated: only terms
+        // of second order tell where it is.
         let is_shown = |k: &usize| {
             let deviation = deviations.get(*k).copied().flatten();
             deviation.is_none_or(|deviation| seen.lengths[*k] * deviation > 1.0)
@@ -71,11 +71,13 @@ impl Basis {
             kept.extend(shown.iter().map(|k| indices[*k]).filter(|k| *k < usize::MAX));
             // What these data show beside it, such as the tilt of a machine on instruments of known
             // direction.
-            kept.extend(seen.beside(&kept, order.iter().map(|k| indices[*k])));
+            let beside = seen.beside(&kept, order.iter().map(|k| indices[*k]));
+            let others = [&places[..], &beside].concat();
+            kept.extend(beside);
             let all = Columns::of_rows(model, &[data, &elsewhere(model, data)?].concat(), x)?;
             let of_machine = equivalents(&columns, &shown, &indices).into_iter();
             for (k, mut acts_as) in of_machine.filter(|(k, _)| *k < usize::MAX && !kept.contains(k)) {
-                acts_as.extend(all.rest_as(k, &acts_as, &places));
+                acts_as.extend(all.rest_as(k, &acts_as, &others));
                 redundant.push((k, acts_as));
             }
             for (k, length) in errors.iter().zip(&columns.lengths[anew..]) {
@@ -113,8 +115,8 @@ impl Basis {
     }
 }
 
-/// Returns the columns that are not kept as combinations of kept ones, all by these indices, without
-/// those of what is set up anew.
+/// Returns the columns that are not kept as combinations of kept ones, all by these indices,
+/// without those of what is set up anew.
 fn equivalents(columns: &Columns, kept: &[usize], indices: &[usize]) -> Vec<(usize, Vec<(usize, f64)>)> {
     let indexed = |(k, acts_as): (usize, Vec<(usize, f64)>)| {
         let acts_as = acts_as.into_iter().map(|(j, factor)| (indices[j], factor));

@@ -42,9 +42,9 @@ pub struct Alternative {
 }
 
 /// Significant errors of a fit.
-pub(super) struct Significant<'a> {
+pub(super) struct Significant {
     /// Names of numbers of the chain.
-    pub(super) names: Vec<&'a str>,
+    pub(super) names: Vec<String>,
     /// Other errors of the machine, by index among the kept unknowns.
     pub(super) errors: Vec<usize>,
 }
@@ -96,23 +96,8 @@ impl<'a> Explanations<'a> {
         let Some(named) = self.candidates.iter().find(|one| one.name == name) else {
             return Vec::new();
         };
-        let kept = &self.fit.identifiable.kept;
-        let of_placement = kept.iter().enumerate().filter(|(_, k)| {
-            let unknown = self.model.unknowns[**k];
-            unknown.is_placement() || matches!(unknown, Unknown::Magnitude(_))
-        });
-        let unit = |i: usize| DVector::from_fn(kept.len(), |j, _| f64::from(u8::from(i == j)));
-        let mut set: Vec<DVector<f64>> = of_placement.map(|(i, _)| unit(i)).collect();
-        set.extend(significant.errors.iter().copied().map(unit));
-        let rest = significant.names.iter().filter(|other| **other != name);
-        let direction = |name: &str| {
-            self.candidates.iter().find(|one| one.name == name).and_then(|one| self.direction(one))
-        };
-        set.extend(rest.filter_map(|name| direction(name)));
-
-        let Some(beside) = self.beside(set) else { return Vec::new() };
-        let found = DVector::from_iterator(kept.len(), kept.iter().map(|k| self.fit.x[*k]));
-        let (Some(found), Some(own)) = (beside.rest(&found), self.direction(named)) else {
+        let Some(beside) = self.beside_significant(name, significant) else { return Vec::new() };
+        let (Some(found), Some(own)) = (beside.rest(&self.found()), self.direction(named)) else {
             return Vec::new();
         };
         let Some(own) = beside.independent(&own) else { return Vec::new() };
@@ -121,7 +106,7 @@ impl<'a> Explanations<'a> {
         let mut taken = vec![named];
         let mut alternatives = Vec::new();
         for one in &self.candidates {
-            let is_significant = significant.names.contains(&one.name.as_str());
+            let is_significant = significant.names.contains(&one.name);
             if is_significant || taken.iter().any(|other| is_same(one, other)) {
                 continue;
             }
@@ -151,6 +136,40 @@ impl<'a> Explanations<'a> {
         }
         alternatives.sort_by(|a, b| b.0.total_cmp(&a.0));
         alternatives.into_iter().map(|(_, alternative)| alternative).collect()
+    }
+
+    /// Returns the value of a number that alone explains what it can beside the significant errors,
+    /// and its standard deviation.
+    pub(super) fn alone(&self, name: &str, significant: &Significant) -> Option<(f64, f64)> {
+        let beside = self.beside_significant(name, significant)?;
+        let named = self.candidates.iter().find(|one| one.name == name)?;
+        let own = beside.independent(&self.direction(named)?)?;
+        let found = beside.rest(&self.found())?;
+        Some((own.dot(&found) / own.norm_squared(), 1.0 / own.norm()))
+    }
+
+    /// Returns the values of the kept unknowns.
+    fn found(&self) -> DVector<f64> {
+        let kept = &self.fit.identifiable.kept;
+        DVector::from_iterator(kept.len(), kept.iter().map(|k| self.fit.x[*k]))
+    }
+
+    /// Returns the significant errors without one, and all places and magnitudes.
+    fn beside_significant(&self, name: &str, significant: &Significant) -> Option<Beside<'_>> {
+        let kept = &self.fit.identifiable.kept;
+        let of_placement = kept.iter().enumerate().filter(|(_, k)| {
+            let unknown = self.model.unknowns[**k];
+            unknown.is_placement() || matches!(unknown, Unknown::Magnitude(_))
+        });
+        let unit = |i: usize| DVector::from_fn(kept.len(), |j, _| f64::from(u8::from(i == j)));
+        let mut set: Vec<DVector<f64>> = of_placement.map(|(i, _)| unit(i)).collect();
+        set.extend(significant.errors.iter().copied().map(unit));
+        let rest = significant.names.iter().filter(|other| **other != name);
+        let direction = |name: &String| {
+            self.candidates.iter().find(|one| one.name == *name).and_then(|one| self.direction(one))
+        };
+        set.extend(rest.filter_map(direction));
+        self.beside(set)
     }
 
     /// Is true for a number of the chain, false for an error of a frame.

@@ -107,24 +107,34 @@ impl AsJointErrors {
     }
 
     /// Returns the significant errors, with their alternatives.
-    pub(super) fn joint_errors(&self, explanations: &Explanations) -> Vec<JointError> {
-        let names = self.significant().map(|one| one.name.as_str()).collect();
-        let errors = self.significant_others(explanations).collect();
-        let significant = Significant { names, errors };
-        let joint_error = |one: &FoundNumber| one.joint_error(&significant, explanations);
-        self.significant().map(joint_error).collect()
-    }
-
-    /// Returns the significant numbers.
     ///
-    /// A term that changes with a joint is hard to distinguish from a constant if the joint moves
-    /// only a little. Numbers that are correlated with the magnitude of a source are therefore left
-    /// out.
-    fn significant(&self) -> impl Iterator<Item = &FoundNumber> {
-        let is_significant = |one: &&FoundNumber| {
-            one.value.abs() > SIGNIFICANT * one.standard_deviation && one.correlation < CORRELATED
+    /// A number that the data cannot tell from another has a share of what both explain. It is
+    /// significant if what it explains alone, beside the other significant errors, is.
+    pub(super) fn joint_errors(&self, explanations: &Explanations) -> Vec<JointError> {
+        // A term that changes with a joint is hard to distinguish from a constant if the joint
+        // moves only a little.
+        let candidates = || self.numbers.iter().filter(|one| one.correlation < CORRELATED);
+        let is_significant = |value: f64, deviation: f64| value.abs() > SIGNIFICANT * deviation;
+        let mut all: Vec<FoundNumber> =
+            candidates().filter(|one| is_significant(one.value, one.standard_deviation)).cloned().collect();
+        let errors: Vec<usize> = self.significant_others(explanations).collect();
+        let named = |all: &[FoundNumber]| Significant {
+            names: all.iter().map(|one| one.name.clone()).collect(),
+            errors: errors.clone(),
         };
-        self.numbers.iter().filter(is_significant)
+        loop {
+            let rest = candidates().filter(|one| all.iter().all(|other| other.index != one.index));
+            let alone = rest.filter_map(|one| {
+                let (value, standard_deviation) = explanations.alone(&one.name, &named(&all))?;
+                Some(FoundNumber { value, standard_deviation, ..one.clone() })
+            });
+            let ratio = |one: &FoundNumber| one.value.abs() / one.standard_deviation;
+            let alone = alone.filter(|one| is_significant(one.value, one.standard_deviation));
+            let Some(most) = alone.max_by(|a, b| ratio(a).total_cmp(&ratio(b))) else { break };
+            all.push(most);
+        }
+        let significant = named(&all);
+        all.iter().map(|one| one.joint_error(&significant, explanations)).collect()
     }
 
     /// Returns the indices among the kept unknowns of the other significant errors of the machine.

@@ -62,8 +62,8 @@ pub(super) fn chain_numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {
     joints.chain(parameters).chain(of_frames).collect()
 }
 
-/// Returns the errors of frames per unit of a number, if they are the same in all configurations. The
-/// zero of a coupled joint is an error of each frame that it moves.
+/// Returns the errors of frames per unit of a number, if they are the same in all configurations.
+/// The zero of a coupled joint is an error of each frame that it moves.
 pub(super) fn constant_errors(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Option<FrameErrors> {
     let twists = frame_twists(graph, spec, number);
     let all = twists.iter().map(|one| Some((one.frame, constant(graph, spec, one.velocity, one.rotation)?)));

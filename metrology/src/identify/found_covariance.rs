@@ -2,9 +2,9 @@
 //!
 //! A fit has combinations `x = R θ` of the unknowns θ, where R adds to each kept error those that
 //! act as it in every configuration, with the posterior covariance C: noise, and where the data say
-//! little, the prior. Numbers of the chain replace some kept unknowns by `v = F x`; the columns of W
-//! are the errors of the written values. The written machine differs from the real one by
-//! `W F (x̂ − x)`, of which `W F C^½` are the parts.
+//! little, the prior. Numbers of the chain replace some kept unknowns by `v = F x`; the columns of
+//! W are the errors of the written values. The written machine differs from the real one by `W F
+//! (x̂ − x)`, of which `W F C^½` are the parts.
 //!
 //! What no configuration shows once base and target are set up anew is no error of the machine.
 //! With the effects G of the errors on the measured points in the fitted rows, and those B of the

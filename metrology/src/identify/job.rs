@@ -205,8 +205,8 @@ impl CrossValidation {
 /// the residual.
 const CONVERSION_TOLERANCE: f64 = 0.01;
 
-/// Returns the identified machine and the numbers that were fitted. `left` is the root mean square error of the fitted rows,
-/// `instruments` are those whose uncertainty was estimated.
+/// Returns the identified machine and the numbers that were fitted. `left` is the root mean square
+/// error of the fitted rows, `instruments` are those whose uncertainty was estimated.
 fn found_model(
     identified: &Identified,
     spec: &Spec,

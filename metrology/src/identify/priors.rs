@@ -9,8 +9,8 @@ use super::setup::Setup;
 /// Expected size of errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prior {
-    /// Share of the arm length for lengths, and the same number in rad for angles; 0 holds the errors
-    /// of frames at zero.
+    /// Share of the arm length for lengths, and the same number in rad for angles; 0 holds the
+    /// errors of frames at zero.
     Share(f64),
     /// Standard deviation of the spec's random sources at each error; the default share where there
     /// is none.
@@ -47,8 +47,8 @@ impl Prior {
         (0..model.unknowns.len()).filter(is_error).collect()
     }
 
-    /// Returns standard deviations about zero for the unknowns of a model. Places that neither map nor
-    /// drawing states are known to the length of the arm and to a radian.
+    /// Returns standard deviations about zero for the unknowns of a model. Places that neither map
+    /// nor drawing states are known to the length of the arm and to a radian.
     pub(super) fn for_model(self, model: &Model, setup: &Setup) -> Result<Vec<Option<f64>>, Failure> {
         let mut priors = self.for_machine(model)?;
         for (prior, unknown) in

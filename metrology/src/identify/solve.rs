@@ -164,24 +164,37 @@ impl Solved<'_> {
     }
 
     /// Returns the magnitude of a source of the spec, the unknown k, and its standard deviation; none
-    /// if it has no effect.
+    /// if it has no effect of its own. Magnitudes that act alike share what all of them explain, as
+    /// their priors do.
     pub(super) fn magnitude(&self, k: usize) -> Option<(f64, f64)> {
         let (own, fit) = (self.own_magnitude(k)?, &self.fit);
-        let place = fit.identifiable.kept.iter().position(|one| *one == k);
-        let alone = place.map(|i| (fit.x[k], fit.covariance[(i, i)].max(0.0).sqrt()));
-        let acts = fit.identifiable.kept_coordinates(k).iter().any(|factor| *factor != 0.0);
-        let (value, deviation) = fit.single(k).filter(|_| acts).or(alone)?;
-        Some((own.declared.value + value, deviation))
+        let acts = fit.identifiable.kept_coordinates(k);
+        let of_kept = acts.iter().zip(&fit.identifiable.kept).enumerate();
+        let (i, (_, kept)) = of_kept
+            .into_iter()
+            .find(|(_, (factor, kept))| **factor != 0.0 && self.own_magnitude(**kept).is_some())?;
+        let Some((value, deviation)) = fit.single(k) else {
+            return (*kept == k)
+                .then(|| (own.declared.value + fit.x[k], fit.covariance[(i, i)].max(0.0).sqrt()));
+        };
+        let shares = self.alike(*kept).filter_map(|(k, factor)| Some(factor * fit.single(k)?.0));
+        let all = fit.single(*kept).map_or(0.0, |(value, _)| value) + shares.sum::<f64>();
+        let part = if all == 0.0 { 1.0 } else { fit.x[*kept] / all };
+        Some((own.declared.value + value * part, deviation))
     }
 
     /// Returns the other magnitudes that act as an unknown, with their factors.
     pub(super) fn held_magnitudes(&self, unknown: usize) -> Vec<(OwnMagnitude, f64)> {
-        let held = self.fit.identifiable.redundant.iter().filter_map(|(k, acts_as)| {
-            let own = self.own_magnitude(*k)?;
+        self.alike(unknown).filter_map(|(k, factor)| Some((self.own_magnitude(k)?, factor))).collect()
+    }
+
+    /// Returns the unknowns of other magnitudes that act as one, with their factors.
+    fn alike(&self, unknown: usize) -> impl Iterator<Item = (usize, f64)> {
+        let all = self.fit.identifiable.redundant.iter().filter(|(k, _)| self.own_magnitude(*k).is_some());
+        all.filter_map(move |(k, acts_as)| {
             let (_, factor) = acts_as.iter().find(|(kept, _)| *kept == unknown)?;
-            Some((own, *factor))
-        });
-        held.collect()
+            Some((*k, *factor))
+        })
     }
 }
 

@@ -98,8 +98,8 @@ fn the_machine_is_identified() {
     let mut job = identify(&map, measurements(&map, 300, 1));
     job.test = Some(measurements(&map, 50, 2));
     let report = job.run(&mut ()).unwrap();
-    // The target lies on the last axis, so that two of the 27 combinations are undetermined, and have
-    // their prior; a plan finds the same.
+    // The target lies on the last axis, so that two of the 27 combinations are undetermined, and
+    // have their prior; a plan finds the same.
     let by_prior = report.parameters.iter().filter(|one| one.prior_dominated).count();
     assert_eq!((report.rank, report.parameters.len(), by_prior), (25, 27, 2));
     let test = report.test.unwrap();

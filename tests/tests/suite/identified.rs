@@ -376,8 +376,8 @@ fn priors_of_the_spec_hold_what_they_are_of() {
     assert!(spin(&free) && spin(&held));
 }
 
-/// The data choose the scale of the prior, and cross-validation is better with it than with ten times
-/// as much as the errors have.
+/// The data choose the scale of the prior, and cross-validation is better with it than with ten
+/// times as much as the errors have.
 #[test]
 fn a_prior_that_is_chosen_is_said_and_no_worse() {
     let small = BENT.replace("0.8 mrad", "0.1 mrad").replace("0.3 mm", "0.04 mm");

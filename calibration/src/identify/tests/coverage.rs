@@ -208,9 +208,9 @@ fn an_outlier_among_few_rows_is_found() {
     }
 }
 
-/// Machines whose errors are drawn from their priors, or are three times as large: the 95 % intervals
-/// hold, although rows are few and turn three joints of six, so that many errors are as expected. The
-/// places of base and target are unknown.
+/// Machines whose errors are drawn from their priors, or are three times as large: the 95 %
+/// intervals hold, although rows are few and turn three joints of six, so that many errors are as
+/// expected. The places of base and target are unknown.
 #[test]
 fn intervals_hold_where_rows_say_little() {
     let model = machine(1);

@@ -232,6 +232,7 @@ fn what_is_grouped_with_what_is_said() {
     let data = bench.file("still.csv", &simulated);
     let text = prints(&["identify", "ur5", path(&data), "--map", path(&map), "--full"]);
     assert!(text.contains("q5 does not move in these data"), "{text}");
+    let text = text.replace(path(&data), "");
     assert!(!text.contains("e9") && !text.contains("NaN") && !text.contains("inf"), "{text}");
 }
 

@@ -71,9 +71,8 @@ fn sizes(report: &Report) -> Table {
     Table::new("", columns).rows(rows.into_iter().map(row))
 }
 
-pub(super) fn significance(parameter: &Parameter) -> f64 {
-    let Written { value, standard_deviation, .. } = parameter.as_written();
-    value.abs() / standard_deviation.max(f64::MIN_POSITIVE)
+pub(super) fn significance(written: &Written) -> f64 {
+    written.value.abs() / written.standard_deviation.max(f64::MIN_POSITIVE)
 }
 
 pub(super) fn of_machine(report: &Report) -> impl Iterator<Item = &Parameter> {
@@ -81,12 +80,28 @@ pub(super) fn of_machine(report: &Report) -> impl Iterator<Item = &Parameter> {
 }
 
 /// Returns the errors that differ from zero with 95 % confidence for all of them together, the most
-/// significant first.
-fn significant_errors(report: &Report) -> Vec<&Parameter> {
+/// significant first, and those that explain the data as well.
+fn significant_errors(report: &Report) -> Vec<(Written, String)> {
     let limit = report.certainty.factor_of_all(of_machine(report).count());
-    let mut all: Vec<&Parameter> =
-        of_machine(report).filter(|parameter| significance(parameter) > limit).collect();
-    all.sort_by(|a, b| significance(b).total_cmp(&significance(a)));
+    let meaning = |name: &str| report.joint_errors.iter().find(|meaning| meaning.number == name);
+    let of_parameters = of_machine(report).map(|parameter| {
+        let mut written = parameter.as_written();
+        let others = meaning(&written.name).map(JointError::others).unwrap_or_default();
+        if let Some(frame) = parameter.frame_name.iter().find(|_| written.name == parameter.name) {
+            written.name += &format!(" ({frame})");
+        }
+        (written, others)
+    });
+    let mut all: Vec<_> = of_parameters.filter(|(written, _)| significance(written) > limit).collect();
+    // Those that share what they explain with others.
+    let shared = report.joint_errors.iter().map(|meaning| {
+        let JointError { number, value, standard_deviation, unit, .. } = meaning.clone();
+        (Written { name: number, value, standard_deviation, unit }, meaning.others())
+    });
+    let shared: Vec<_> =
+        shared.filter(|(one, _)| all.iter().all(|(other, _)| other.name != one.name)).collect();
+    all.extend(shared.into_iter().filter(|(written, _)| significance(written) > limit));
+    all.sort_by(|(a, _), (b, _)| significance(b).total_cmp(&significance(a)));
     all
 }
 
@@ -99,18 +114,13 @@ fn no_significant_error(report: &Report) -> Option<String> {
 fn significant(report: &Report) -> Table {
     let all = significant_errors(report);
     let columns = ["significant errors", ">value", ">± 1 σ", "", "or"];
-    let row = |parameter: &&Parameter| {
-        let Written { name, .. } = parameter.as_written();
-        let meaning = report.joint_errors.iter().find(|meaning| meaning.number == name);
-        let name = match &parameter.frame_name {
-            Some(frame) if name == parameter.name => format!("{name} ({frame})"),
-            _ => name,
-        };
-        let [value, deviation, unit] = estimate(report, parameter);
-        [name, value, deviation, unit, meaning.map(JointError::others).unwrap_or_default()]
+    let row = |(written, others): &(Written, String)| {
+        let [value, deviation, unit] = estimate(report, written);
+        [written.name.clone(), value, deviation, unit, others.clone()]
     };
     let mut table = Table::new("", columns).rows(all.iter().take(SHOWN).map(row));
-    table.rest = match (all.len().saturating_sub(SHOWN), of_machine(report).count() - all.len()) {
+    let others = of_machine(report).count().saturating_sub(all.len());
+    table.rest = match (all.len().saturating_sub(SHOWN), others) {
         (0, 0) => String::new(),
         (0, others) => format!("… {others} not significant (95 %)"),
         (more, others) => format!("… {more} more, {others} not significant (95 %)"),
@@ -119,8 +129,8 @@ fn significant(report: &Report) -> Table {
 }
 
 /// Formats a value, its standard deviation and their unit.
-pub(super) fn estimate(report: &Report, parameter: &Parameter) -> [String; 3] {
-    let Written { value, standard_deviation, unit, .. } = parameter.as_written();
+pub(super) fn estimate(report: &Report, written: &Written) -> [String; 3] {
+    let Written { value, standard_deviation, unit, .. } = *written;
     let (factor, shown) = match unit {
         unit if unit == report.length => error_unit(report.length),
         unit => angle_in_mrad(unit),

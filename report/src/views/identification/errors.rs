@@ -1,6 +1,6 @@
 //! Errors of the machine: estimates, equivalent errors of joints, and magnitudes of sources.
 
-use abbe_metrology::identify::{JointError, Magnitude, Report, Written};
+use abbe_metrology::identify::{JointError, Magnitude, Report};
 use abbe_spec::option::PRIOR;
 use abbe_study::number::{digits, fixed};
 
@@ -56,13 +56,13 @@ fn estimates(report: &Report) -> Table {
     let columns = ["error", "of", ">value", ">σ", "", ">value/σ", ""];
     Table::new("Others act as these in every configuration", columns).rows(of_machine(report).map(
         |parameter| {
-            let [value, deviation, unit] = estimate(report, parameter);
-            let Written { name, .. } = parameter.as_written();
+            let written = parameter.as_written();
+            let [value, deviation, unit] = estimate(report, &written);
+            let significance = fixed(significance(&written).min(9999.0), 1);
             let name = match &parameter.iso {
-                Some(iso) if name == parameter.name => format!("{name} ({iso})"),
-                _ => name,
+                Some(iso) if written.name == parameter.name => format!("{} ({iso})", written.name),
+                _ => written.name,
             };
-            let significance = fixed(significance(parameter).min(9999.0), 1);
             let remark = if parameter.prior_dominated { "prior-dominated" } else { "" };
             let frame = parameter.frame_name.clone().unwrap_or_default();
             [name, frame, value, deviation, unit, significance, remark.to_owned()]
