@@ -55,6 +55,10 @@ pub(super) struct Known {
     pub(super) configurations: usize,
 }
 
+/// Degrees of freedom below which there are none: what priors say of unknowns that the data
+/// determine.
+const NO_FREEDOM: f64 = 0.1;
+
 /// Degrees of freedom of a rigid body: the largest number of independent numbers per configuration.
 pub(super) const POSE: usize = 6;
 
@@ -73,6 +77,7 @@ impl Solver<'_> {
         let count = configurations.count;
         let stated = self.model.stated_freedom;
         let known = |covariance: DMatrix<f64>, prior: DMatrix<f64>, sigma, freedom: f64, independent| {
+            let freedom = if freedom < NO_FREEDOM { 0.0 } else { freedom };
             let freedom = freedom.max(if stated > 0.0 { 0.0 } else { 1.0 });
             let (covariance, sigma) = match freedom {
                 0.0 => (prior, 1.0),

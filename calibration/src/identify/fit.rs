@@ -1,6 +1,6 @@
 //! Nonlinear least squares on the exact model.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::clustered::{Independent, Known};
 use super::identifiable::Columns;
@@ -12,6 +12,9 @@ use super::{
 
 /// Observations with a smaller weight count as rejected.
 pub(super) const REJECTED: f64 = 0.05;
+
+/// Scale of priors that are scaled, up to which an unknown counts as one that the data can show.
+const LARGE: f64 = 10.0;
 
 /// Result of a fit.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,20 +74,6 @@ impl Fit {
             root.as_ref().is_some_and(|root| 4.0 * self.covariance[(*i, *i)] > root.row(*i).norm_squared())
         };
         (0..count).filter(hardly).map(|i| self.identifiable.kept[i]).collect()
-    }
-
-    /// Returns the estimate of a single unknown with a prior, and its standard deviation: of those
-    /// that act alike each has its share.
-    ///
-    /// With the column r of R and the standard deviation σ of the unknown, and `P = WᵀW`, it is
-    /// `σ² rᵀ P x`, with the variance `σ² − σ⁴ rᵀ P r + σ⁴ rᵀ P C P r`.
-    pub fn single(&self, unknown: usize) -> Option<(f64, f64)> {
-        let square = self.priors.get(unknown).copied().flatten()?.powi(2);
-        let r = DVector::from_vec(self.identifiable.kept_coordinates(unknown));
-        let x = DVector::from_iterator(r.len(), self.identifiable.kept.iter().map(|k| self.x[*k]));
-        let share = self.prior.tr_mul(&(&self.prior * &r)) * square;
-        let variance = square * (1.0 - share.dot(&r)) + share.dot(&(&self.covariance * &share));
-        Some((share.dot(&x), variance.max(0.0).sqrt()))
     }
 
     /// Returns the model with the kept unknowns alone, and their values.
@@ -156,7 +145,9 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     at.resize(model.unknowns.len(), 0.0);
     let plain = model.without_known_sources();
     let more = |rows: &[Observation]| identifiable(&plain, rows, &at).map_or(0, |found| found.rank);
-    let seen = Columns::of_rows(&plain, data, &at)?.with_expected(&options.priors);
+    let mut expected = options.priors.clone();
+    options.scaled.iter().for_each(|k| expected[*k] = expected[*k].map(|sigma| LARGE * sigma));
+    let seen = Columns::of_rows(&plain, data, &at)?.with_expected(&expected);
     let found = seen.knowable(&plain, data);
     let rank = found.rank + found.weak.len();
     let basis = match options.priors.is_empty() {

@@ -163,24 +163,31 @@ impl Solved<'_> {
         self.own.get(unknown).copied()
     }
 
-    /// Returns the magnitude of a source of the spec, the unknown k, and its standard deviation; none
-    /// if it has no effect of its own. Magnitudes that act alike share what all of them explain, as
-    /// their priors do.
+    /// Returns the magnitude of a source of the spec, the unknown k, and its standard deviation;
+    /// none if it has no effect of its own.
+    ///
+    /// Of the sum `x = Σ f m` of magnitudes that act alike, with the variance C, each has a share
+    /// by its prior: with `S = Σ f² σ²`, the value `f σ² x/S` and the variance `σ² (1 − f² σ²/S) +
+    /// (f σ²/S)² C`.
     pub(super) fn magnitude(&self, k: usize) -> Option<(f64, f64)> {
         let (own, fit) = (self.own_magnitude(k)?, &self.fit);
         let acts = fit.identifiable.kept_coordinates(k);
-        let of_kept = acts.iter().zip(&fit.identifiable.kept).enumerate();
-        let (i, (_, kept)) = of_kept
-            .into_iter()
-            .find(|(_, (factor, kept))| **factor != 0.0 && self.own_magnitude(**kept).is_some())?;
-        let Some((value, deviation)) = fit.single(k) else {
-            return (*kept == k)
-                .then(|| (own.declared.value + fit.x[k], fit.covariance[(i, i)].max(0.0).sqrt()));
+        let mut of_kept = acts.iter().zip(&fit.identifiable.kept).enumerate();
+        let is_sum = |factor: f64, kept: usize| factor != 0.0 && self.own_magnitude(kept).is_some();
+        let (i, (factor, kept)) = of_kept.find(|(_, (factor, kept))| is_sum(**factor, **kept))?;
+        let (x, variance) = (fit.x[*kept], fit.covariance[(i, i)]);
+        let square = |k: usize| Some(self.own_magnitude(k)?.declared.standard_deviation?.powi(2));
+        let all = [(*kept, 1.0)].into_iter().chain(self.alike(*kept));
+        let all: Option<f64> = all.map(|(k, factor)| Some(factor * factor * square(k)?)).sum();
+        let (value, variance) = match (all, square(k)) {
+            (Some(all), Some(square)) => {
+                let share = factor * square / all;
+                (share * x, square * (1.0 - factor * share) + share * share * variance)
+            }
+            _ if *kept == k => (x, variance),
+            _ => return None,
         };
-        let shares = self.alike(*kept).filter_map(|(k, factor)| Some(factor * fit.single(k)?.0));
-        let all = fit.single(*kept).map_or(0.0, |(value, _)| value) + shares.sum::<f64>();
-        let part = if all == 0.0 { 1.0 } else { fit.x[*kept] / all };
-        Some((own.declared.value + value * part, deviation))
+        Some((own.declared.value + value, variance.max(0.0).sqrt()))
     }
 
     /// Returns the other magnitudes that act as an unknown, with their factors.

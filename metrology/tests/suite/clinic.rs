@@ -196,11 +196,10 @@ compliance = { diagonal = [0, 0, 0, 0, "3e-10/(N*mm)", "3e-10/(N*mm)"] }
         let text = report.found.identified_map(&job.map, &nominal.spec, "found.map.toml").unwrap();
         let found = Map::parse("found.map.toml", &text, &nominal.spec).unwrap();
         assert!(text.contains("[placement]\ntargets"), "{text}");
-        // Their height is that of the couch, which no row tells from that of the base.
-        for (j, (found, designed)) in found.targets().iter().zip(job.map.targets()).enumerate() {
-            let variance = |i: usize| report.placed.covariance[3 * j + i][3 * j + i];
-            let far = (0..3).map(|i| (found[i] - designed[i]).abs() - 3.0 * variance(i).sqrt());
-            assert!(far.clone().all(|far| far < 5.0), "{found:?} {designed:?} {:?}", far.collect::<Vec<_>>());
+        // The couch stays level, so that rows hardly tell their height from that of the base.
+        for (found, designed) in found.targets().iter().zip(job.map.targets()) {
+            let apart = (found[0] - designed[0]).hypot(found[2] - designed[2]);
+            assert!(apart < 8.0, "{found:?} {designed:?}");
         }
         let test = report.test.unwrap();
         (test.before.mean, test.after.mean)

@@ -86,7 +86,15 @@ fn significant_errors(report: &Report) -> Vec<(Written, String)> {
     let meaning = |name: &str| report.joint_errors.iter().find(|meaning| meaning.number == name);
     let of_parameters = of_machine(report).map(|parameter| {
         let mut written = parameter.as_written();
-        let others = meaning(&written.name).map(JointError::others).unwrap_or_default();
+        // Where the fit is not written as numbers of the chain, they explain it to first order.
+        let in_place = || report.joint_errors.iter().find(|one| one.in_place_of == written.name);
+        let others = match (meaning(&written.name), in_place()) {
+            (Some(named), _) => named.others(),
+            (None, Some(named)) if parameter.written.is_none() => {
+                [named.number.clone(), named.others()].join(" or ").trim_end_matches(" or ").to_owned()
+            }
+            _ => String::new(),
+        };
         if let Some(frame) = parameter.frame_name.iter().find(|_| written.name == parameter.name) {
             written.name += &format!(" ({frame})");
         }
@@ -94,13 +102,20 @@ fn significant_errors(report: &Report) -> Vec<(Written, String)> {
     });
     let mut all: Vec<_> = of_parameters.filter(|(written, _)| significance(written) > limit).collect();
     // Those that share what they explain with others.
-    let shared = report.joint_errors.iter().map(|meaning| {
+    let is_listed = |meaning: &&JointError| {
+        let is_own = |parameter: &Parameter| {
+            let written = parameter.as_written();
+            let is_this = written.name == meaning.number
+                || parameter.written.is_none() && written.name == meaning.in_place_of;
+            is_this && significance(&written) > limit
+        };
+        of_machine(report).any(is_own)
+    };
+    let shared = report.joint_errors.iter().filter(|one| !is_listed(one)).map(|meaning| {
         let JointError { number, value, standard_deviation, unit, .. } = meaning.clone();
         (Written { name: number, value, standard_deviation, unit }, meaning.others())
     });
-    let shared: Vec<_> =
-        shared.filter(|(one, _)| all.iter().all(|(other, _)| other.name != one.name)).collect();
-    all.extend(shared.into_iter().filter(|(written, _)| significance(written) > limit));
+    all.extend(shared.filter(|(written, _)| significance(written) > limit));
     all.sort_by(|(a, _), (b, _)| significance(b).total_cmp(&significance(a)));
     all
 }
