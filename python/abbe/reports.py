@@ -1426,14 +1426,19 @@ class IdentifyReport(Report):
     target_on_axis: str | None
     """Last revolute joint, if all targets are on its axis; some errors cannot be distinguished then."""
 
+    prior: float | None
+    """Prior standard deviation of errors of frames, as a share of the size of the machine, and in rad; None if it is
+    that of the spec, or if they are not fitted.
+    """
+
     weakly_determined: list[WeaklyDetermined]
-    """Errors that these data determine poorly compared with their prior; they are fixed at zero."""
+    """Errors that these data determine poorly compared with their prior."""
 
     magnitudes: list[Magnitude]
     """Magnitudes of sources of the spec that were unknown."""
 
     redundant: list[Redundant]
-    """Unknowns that are fixed at zero because they are equivalent to kept ones."""
+    """Unknowns that act as others in every configuration, which stand for them."""
 
     correlations: list[Pair]
     """Pairs of parameters with an absolute correlation above 0.9."""
@@ -2052,18 +2057,29 @@ class Magnitude(Fields):
     """Standard deviation declared in the spec, in coherent units; None if there is none."""
 
     value: float
-    """Identified magnitude, in coherent units; the declared one if the data do not determine it."""
+    """Identified magnitude, in coherent units; the declared one if it has no effect of its own."""
 
     standard_deviation: float | None
-    """Standard deviation of the magnitude, in coherent units; None if the data do not determine it."""
+    """Standard deviation of the magnitude, in coherent units; None if it has no effect of its own."""
 
-    stands_for: list[list[str | float]]
-    """Magnitudes fixed at their declared values that act as this one in these data, with their factors: the value
-    stands for this magnitude plus their sum.
-    """
+    sum: MagnitudeSum | None
+    """Sum of this magnitude and of those that act as it; None if there are none."""
 
     prior_dominated: bool
     """Is true if the standard deviation exceeds half of the declared one: the data contribute little."""
+
+
+class MagnitudeSum(Fields):
+    """Sum of magnitudes that act alike."""
+
+    of: list[list[str | float]]
+    """Names of the sources and their factors."""
+
+    value: float
+    """Identified value, in coherent units."""
+
+    standard_deviation: float
+    """Standard deviation of the value, in coherent units."""
 
 
 class Margin(Fields):
@@ -2491,6 +2507,9 @@ class Parameter(Fields):
     name: str
     """Name: `e_x1`, or `e_x0` for the base."""
 
+    written: Written | None = None
+    """Number that is written in its place, with its own value; None if it is the unknown itself."""
+
     kind: Literal["machine", "station", "placement"]
     """Object that the unknown belongs to."""
 
@@ -2875,7 +2894,7 @@ class ReadingErrors(Fields):
 
 
 class Redundant(Fields):
-    """Unknown that is fixed at zero, and the combination it is equivalent to."""
+    """Unknown that others stand for, and the combination that it is equivalent to."""
 
     name: str
     """Name of the unknown."""
@@ -3524,7 +3543,7 @@ class Warning(Fields):
 
 
 class WeaklyDetermined(Fields):
-    """Error whose standard deviation exceeds half of the prior's. It is fixed at zero and not written to the spec."""
+    """Error whose standard deviation from the data alone exceeds half of the prior's."""
 
     name: str
     """Name of the error."""
@@ -3534,6 +3553,22 @@ class WeaklyDetermined(Fields):
 
     expected: float
     """Standard deviation of the prior about zero, in `unit`."""
+
+    unit: str
+    """Unit: the length unit, rad, or empty."""
+
+
+class Written(Fields):
+    """Number that is written in place of a kept unknown."""
+
+    name: str
+    """Name: `zero of q2`, `a of shoulder`, `e_x1`; `inner + outer` for magnitudes that act alike."""
+
+    value: float
+    """Identified value, in `unit`."""
+
+    standard_deviation: float
+    """Standard deviation of the value, in `unit`."""
 
     unit: str
     """Unit: the length unit, rad, or empty."""

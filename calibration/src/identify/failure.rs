@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use abbe_core::{Error, Remedy};
+use super::Observation;
+use abbe_core::{Error, Quantity, Remedy};
 
 /// Reason why identification has no result.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +43,12 @@ impl Failure {
     /// Returns `true` if loops do not close.
     pub(super) const fn is_open(&self) -> bool {
         matches!(self, Self::Observation { error, .. } | Self::Machine(error) if error.is_open())
+    }
+
+    /// Returns the failure of derivatives of some rows.
+    pub(super) fn not_finite(data: &[Observation]) -> Self {
+        let line = data.first().map_or(0, |first| first.line);
+        Self::Observation { line, error: Error::NotFinite { quantity: Quantity::Jacobian, index: 0 } }
     }
 
     /// Returns a result; `None` where loops do not close, so that a step ends there.

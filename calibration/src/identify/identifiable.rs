@@ -11,7 +11,6 @@ use nalgebra::{DMatrix, DVector};
 use super::linearize::linearize;
 use super::{Failure, Model, Observability, Observation, Unknown};
 use abbe_analysis::decompose::singular_values;
-use abbe_core::{Error, Quantity};
 
 /// Relative threshold of the singular values of the matrix with columns of unit length; smaller
 /// ones count as zero.
@@ -143,21 +142,35 @@ impl Columns {
     /// Computes the derivatives of rows at `x`.
     pub(super) fn of_rows(model: &Model, data: &[Observation], x: &[f64]) -> Result<Self, Failure> {
         let p = model.unknowns.len();
-        let mut unit = linearize(model, data, x, None)?.finish().columns(0, p).into_owned();
+        let all = linearize(model, data, x, None)?.finish().columns(0, p).into_owned();
+        Self::of_matrix(all).ok_or_else(|| Failure::not_finite(data))
+    }
+
+    /// Returns some columns of these rows and of other ones together; none if they are not finite.
+    pub(super) fn joined(&self, other: &Self, columns: &[usize]) -> Option<Self> {
+        let part = |of: &Self, i: usize, k: usize| of.unit[(i, k)] * of.lengths[k];
+        let rows = self.unit.nrows();
+        let entry = |i: usize, j: usize| match i.checked_sub(rows) {
+            None => part(self, i, columns[j]),
+            Some(i) => part(other, i, columns[j]),
+        };
+        let all = DMatrix::from_fn(rows + other.unit.nrows(), columns.len(), entry);
+        Self::of_matrix(all.qr().unpack_r())
+    }
+
+    fn of_matrix(mut unit: DMatrix<f64>) -> Option<Self> {
+        let p = unit.ncols();
         let lengths: Vec<f64> = unit.column_iter().map(|column| column.norm()).collect();
         let largest = lengths.iter().copied().fold(0.0, f64::max);
         // Columns of rounding errors count as zero.
         for (mut column, length) in unit.column_iter_mut().zip(&lengths) {
             column.scale_mut(if *length > largest * 1e-14 { 1.0 / length } else { 0.0 });
         }
-        let singular_values = singular_values(unit.clone()).ok_or_else(|| Failure::Observation {
-            line: data.first().map_or(0, |first| first.line),
-            error: Error::NotFinite { quantity: Quantity::Jacobian, index: 0 },
-        })?;
+        let singular_values = singular_values(unit.clone())?;
         let threshold = singular_values.first().map_or(0.0, |first| first * THRESHOLD);
         let exact = singular_values.iter().filter(|value| **value > threshold).count();
         let (worth, expected) = (vec![f64::INFINITY; p], vec![None; p]);
-        Ok(Self { unit, lengths, worth, expected, singular_values, exact })
+        Some(Self { unit, lengths, worth, expected, singular_values, exact })
     }
 
     /// Sets the expected size of each unknown.

@@ -55,10 +55,10 @@ impl Basis {
         let of = |these: &[usize]| model.with(these.iter().map(|k| model.unknowns[*k]).collect());
         let mut effects = seen.lengths.clone();
         // Places, as these instruments would see them in other configurations.
-        let placed = of(&places);
-        let others = [data, &elsewhere(&placed, data)?].concat();
-        let columns = Columns::of_rows(&placed, &others, &places.iter().map(|k| x[*k]).collect::<Vec<_>>())?;
-        let shown = columns.kept(&[&by_preference(&placed)]);
+        let others = Columns::of_rows(model, &elsewhere(model, data)?, x)?;
+        let joined = |these: &[usize]| seen.joined(&others, these).ok_or_else(|| Failure::not_finite(data));
+        let columns = joined(&places)?;
+        let shown = columns.kept(&[&by_preference(&of(&places))]);
         let mut redundant = equivalents(&columns, &shown, &places);
         let places: Vec<usize> = shown.iter().map(|k| places[*k]).collect();
         let mut kept = places.clone();
@@ -72,12 +72,12 @@ impl Basis {
             // What these data show beside it, such as the tilt of a machine on instruments of known
             // direction.
             let beside = seen.beside(&kept, order.iter().map(|k| indices[*k]));
-            let others = [&places[..], &beside].concat();
+            let basis = [&places[..], &beside].concat();
             kept.extend(beside);
-            let all = Columns::of_rows(model, &[data, &elsewhere(model, data)?].concat(), x)?;
+            let all = joined(&(0..model.unknowns.len()).collect::<Vec<_>>())?;
             let of_machine = equivalents(&columns, &shown, &indices).into_iter();
             for (k, mut acts_as) in of_machine.filter(|(k, _)| *k < usize::MAX && !kept.contains(k)) {
-                acts_as.extend(all.rest_as(k, &acts_as, &others));
+                acts_as.extend(all.rest_as(k, &acts_as, &basis));
                 redundant.push((k, acts_as));
             }
             for (k, length) in errors.iter().zip(&columns.lengths[anew..]) {

@@ -248,7 +248,7 @@ fn pages_name_the_options_of_their_figures() {
                 ("terms", "joint"),
                 ("harmonics", "q4=1,2"),
                 ("folds", "5"),
-                ("prior", "0.01"),
+                ("prior", "auto"),
             ],
         ),
         (

@@ -109,7 +109,8 @@ impl AsJointErrors {
     /// Returns the significant errors, with their alternatives.
     ///
     /// A number that the data cannot tell from another has a share of what both explain. It is
-    /// significant if what it explains alone, beside the other significant errors, is.
+    /// significant if what it explains alone, beside the other significant errors, is; its value is
+    /// then that without the other.
     pub(super) fn joint_errors(&self, explanations: &Explanations) -> Vec<JointError> {
         // A term that changes with a joint is hard to distinguish from a constant if the joint
         // moves only a little.
@@ -129,8 +130,21 @@ impl AsJointErrors {
                 Some(FoundNumber { value, standard_deviation, ..one.clone() })
             });
             let ratio = |one: &FoundNumber| one.value.abs() / one.standard_deviation;
-            let alone = alone.filter(|one| is_significant(one.value, one.standard_deviation));
-            let Some(most) = alone.max_by(|a, b| ratio(a).total_cmp(&ratio(b))) else { break };
+            let mut alone: Vec<FoundNumber> =
+                alone.filter(|one| is_significant(one.value, one.standard_deviation)).collect();
+            alone.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
+            // It must have an alternative, and leave nothing to any of them.
+            let significant = named(&all);
+            let settles = |one: &FoundNumber| {
+                let others = one.joint_error(&significant, explanations).alternatives;
+                let with = named(&[&all[..], std::slice::from_ref(one)].concat());
+                let is_left = |name: &str| {
+                    let beside = explanations.alone(name, &with);
+                    beside.is_some_and(|(value, deviation)| is_significant(value, deviation))
+                };
+                !others.is_empty() && !others.iter().any(|other| is_left(&other.number))
+            };
+            let Some(most) = alone.into_iter().find(settles) else { break };
             all.push(most);
         }
         let significant = named(&all);

@@ -209,7 +209,7 @@ fn extrapolation(report: &Report) -> Option<String> {
     if let Some(deviation) = rows.standard_deviation {
         let [there, within] =
             [deviation.extrapolated, deviation.within].map(|value| digits(factor * value, 2));
-        fact += &format!(": σ of the tool point {there} {unit} there, {within} {unit} within");
+        fact += &format!(": σ of the tool point {there} {unit} there, {within} within");
     }
     Some(fact)
 }

@@ -23,7 +23,7 @@ pub(super) fn machine(report: &Report) -> Section {
     let correlated = (!report.correlations.is_empty())
         .then(|| format!("Correlated by more than 0.9: {}{more}.", joined(correlated)));
     let prior = report.parameters.iter().any(|parameter| parameter.prior_dominated).then(|| {
-        format!("Prior-dominated: the prior has more influence on these errors than the data (`{PRIOR}`).")
+        format!("Prior-dominated: the prior says more about these errors than the data (`{PRIOR}`).")
     });
     let expected = report.prior.map(|share| {
         format!(
