@@ -97,12 +97,13 @@ impl FoundPlacement {
         };
         // Places that the rows do not show stay as stated.
         let stated = |unknown: Unknown| {
-            let weak = fit.identifiable.weak.iter().find(|weak| model.unknowns[weak.unknown] == unknown);
-            weak.map_or(0.0, |weak| weak.expected.powi(2))
+            let k = model.unknowns.iter().position(|one| *one == unknown)?;
+            let acts_as_others = fit.identifiable.redundant.iter().any(|(other, _)| *other == k);
+            fit.priors.get(k).copied().flatten().filter(|_| !acts_as_others)
         };
         let covariance = |a: Unknown, b: Unknown| match (among(a), among(b)) {
             (Some(a), Some(b)) => fit.covariance[(a, b)],
-            (None, None) if a == b => stated(a),
+            (None, None) if a == b => stated(a).map_or(0.0, |deviation| deviation * deviation),
             _ => 0.0,
         };
         let rows = |pose: Pose| pose.rows().map(|row| row.map(|entry| entry + 0.0));

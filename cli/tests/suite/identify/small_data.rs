@@ -182,3 +182,33 @@ fn one_degree_of_freedom_leaves_the_stated_uncertainty() {
         assert!((0.7e-3..3e-3).contains(&deviation) && (found - 0.2).abs() < 4.0 * deviation, "{one}");
     }
 }
+
+/// Two lengths that act alike are said as their sum, and each with what its prior leaves of it.
+#[test]
+fn lengths_in_line_are_known_as_a_sum() {
+    let length = |name: &str| {
+        format!(
+            "[[source]]\nname = \"{name}\"\nclass = \"repeatable\"\nparameter = \"{name}\"\nerror = \"1 mm\"\n\
+             magnitude = {{ value = 0, standard_deviation = 5 }}\n"
+        )
+    };
+    let spec = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[parameters]\nupper = \"250 mm\"\nlower = \"350 mm\"\n\
+                [[frame]]\nname = \"arm\"\nvariable = { name = \"q\", kind = \"revolute\", limits = [\"-90 deg\", \"90 deg\"] }\n\
+                transform = \"Rz(q) Tx(upper) Tx(lower)\"\n"
+        .to_owned()
+        + &length("upper")
+        + &length("lower");
+    let map = "[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\nplacement = \"exact\"\n\
+               [joints]\nq = { column = \"q\", unit = \"deg\" }\n\
+               [point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
+    let row = |i: i32| {
+        let (sin, cos) = f64::from(12 * i).to_radians().sin_cos();
+        let off = 0.01 * f64::from(i * 5 % 7);
+        format!("{},{},{},{}\n", 12 * i, 601.4 * cos + off, 601.4 * sin - off, 0.5 * off)
+    };
+    let rows: String = (-6..=6).map(row).collect();
+    let (status, text) = identified(&spec, map, &format!("q,x,y,z\n{rows}"), &["--full"]);
+    assert!(status == 0 && text.contains("upper + lower") && text.contains("0.7"), "{text}");
+    let sentence = "± 3.5, which these data determine less well than the spec";
+    assert!(text.contains("they determine upper + lower = 1.4") && text.contains(sentence), "{text}");
+}

@@ -106,6 +106,9 @@ fn places_that_rows_on_a_line_cannot_determine_stay_as_stated() {
     let report = job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"));
     let far = report.parameters.iter().filter(|one| one.unit == "mm" && one.standard_deviation > 50.0);
     assert_eq!(far.count(), 0, "{:?}", report.parameters);
+    // The map says that nobody measured them.
+    let variance = |i: usize| report.placed.instruments[0].covariance[i][i];
+    assert!(variance(0).sqrt() < 1.0 && variance(1).min(variance(2)).sqrt() > 50.0, "{:?}", report.placed);
     let named = |name: &str| report.weakly_determined.iter().any(|one| one.name == name);
     // Both move beside the line in the same proportion, so they are one combination.
     assert!(named("left_y") || named("left_z"), "{:?} {:?}", report.weakly_determined, report.redundant);

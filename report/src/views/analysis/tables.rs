@@ -62,7 +62,7 @@ fn unit(report: &Report) -> String {
 /// there are any.
 fn columns(report: &Report, tolerance: Option<f64>) -> Vec<&'static str> {
     let share = tolerance.map(|_| ">of tolerance");
-    let agreement = (!report.study.published.is_empty()).then(|| "agreement");
+    let agreement = (!report.study.published.is_empty()).then_some("agreement");
     ["figure", ">x", ">y", ">z", ">norm"].into_iter().chain(share).chain(agreement).collect()
 }
 
