@@ -96,7 +96,7 @@ fn identified(robot: &dyn Manipulator, [grid, random]: [&str; 2]) -> Result<Iden
     let moved: Vec<usize> = (0..robot.description().variables.len()).collect();
     let grouped = groups(&model, &grid[0].q, &moved, false).unwrap().len();
     assert_eq!(
-        grouped + all.identifiable.rank,
+        grouped + all.identifiable.rank + all.identifiable.weak.len(),
         model.unknowns.len(),
         "the twists explain all that is not known"
     );
@@ -117,7 +117,10 @@ fn halves() -> Result<(), Missing> {
     let model = ideal.with(ideal.constants(false));
     let half = |first: usize| {
         let rows: Vec<Observation> = grid.iter().skip(first).step_by(2).cloned().collect();
-        let options = Options { priors: model.priors(0.01).unwrap(), ..Options::default() };
+        // As `identify` does: the data choose the scale of errors of frames.
+        let is_error = |k: &usize| matches!(model.unknowns[*k], Unknown::Error(..));
+        let scaled = (0..model.unknowns.len()).filter(is_error).collect();
+        let options = Options { priors: model.priors(1e-3).unwrap(), scaled, ..Options::default() };
         let found = fit(&model, &rows, &options).unwrap();
         let points = model.tool_points(&random).unwrap();
         let deviations = points.deviations(&found.identifiable, &found.covariance);

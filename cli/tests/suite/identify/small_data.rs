@@ -203,12 +203,16 @@ fn lengths_in_line_are_known_as_a_sum() {
                [point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
     let row = |i: i32| {
         let (sin, cos) = f64::from(12 * i).to_radians().sin_cos();
-        let off = 0.01 * f64::from(i * 5 % 7);
+        let off = 0.008 * f64::from((5 * i).rem_euclid(7) - 3);
         format!("{},{},{},{}\n", 12 * i, 601.4 * cos + off, 601.4 * sin - off, 0.5 * off)
     };
     let rows: String = (-6..=6).map(row).collect();
     let (status, text) = identified(&spec, map, &format!("q,x,y,z\n{rows}"), &["--full"]);
-    assert!(status == 0 && text.contains("upper + lower") && text.contains("0.7"), "{text}");
+    assert!(status == 0 && text.contains("  upper + lower "), "{text}");
     let sentence = "± 3.5, which these data determine less well than the spec";
-    assert!(text.contains("they determine upper + lower = 1.4") && text.contains(sentence), "{text}");
+    assert!(
+        ["= 1.39", "= 1.4"].iter().any(|sum| text.contains(&format!("they determine upper + lower {sum}")))
+            && text.contains(sentence),
+        "{text}"
+    );
 }
