@@ -157,14 +157,8 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let (identifiable, prior) = match &basis {
         None => (found, DMatrix::zeros(0, rank)),
         Some(basis) => {
-            let Basis { kept, redundant, .. } = basis;
-            let identifiable = Identifiable {
-                kept: kept.clone(),
-                redundant: redundant.clone(),
-                inexact: Vec::new(),
-                ..found
-            };
-            (identifiable, basis.rows(&[], 1.0))
+            let (kept, redundant) = (basis.kept.clone(), basis.redundant.clone());
+            (Identifiable { kept, redundant, ..found }, basis.rows(&[], 1.0))
         }
     };
     let numbers = model.count(data.iter());

@@ -9,7 +9,7 @@ use super::linearize::{push_distances, with_priors};
 use super::triangle::{Problem, Triangle};
 use super::{Configurations, Distances, Failure, Fit, Model, Observation};
 use abbe_analysis::in_order;
-use abbe_analysis::sampling::halton;
+use abbe_analysis::sampling::{halton, range_of};
 
 /// Assignment of observations to folds.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,9 +37,7 @@ impl Folds {
         number.iter_mut().for_each(|number| *number = fold[*number as usize]);
         Self { count, fold: number }
     }
-}
 
-impl Folds {
     /// Divides the configurations into `count` regions of joint space with about equally many each:
     /// the part with the most configurations is halved at the median of the joint that varies most,
     /// in shares of its variation over all rows, until there are enough.
@@ -47,14 +45,10 @@ impl Folds {
         let Configurations { count: configurations, number } = Configurations::new(data);
         let mut places: Vec<&[f64]> = vec![&[]; configurations];
         number.iter().zip(data).for_each(|(number, row)| places[*number as usize] = &row.q);
-        let range = |part: &[usize], joint: usize| {
-            let values = part.iter().map(|i| places[*i][joint]);
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
-        };
         let whole: Vec<usize> = (0..configurations).collect();
         let joints = places.first().map_or(0, |place| place.len());
-        let spread = |part: &[usize], joint| {
-            let (least, most) = range(part, joint);
+        let spread = |part: &[usize], joint: usize| {
+            let [least, most] = range_of(part.iter().map(|i| places[*i][joint]));
             most - least
         };
         let all: Vec<f64> = (0..joints).map(|joint| spread(&whole, joint).max(f64::MIN_POSITIVE)).collect();

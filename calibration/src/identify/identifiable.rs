@@ -42,8 +42,6 @@ pub struct Identifiable {
     /// Unknowns fixed at zero that have no equivalent but are weakly determined by these data, one
     /// for each combination.
     pub weak: Vec<Weak>,
-    /// Unknowns fixed at zero whose equivalent is approximate.
-    pub inexact: Vec<usize>,
     /// Singular values of the matrix with columns of unit length, largest first.
     pub singular_values: Vec<f64>,
     /// Condition number and observability indices of the kept columns, each of unit length.
@@ -286,7 +284,6 @@ impl Columns {
         Identifiable {
             rank: kept.len(),
             errors,
-            inexact: inexact(&rest).collect(),
             weak: self.weak(kept.len(), rest),
             redundant: self.redundant(&kept),
             kept,

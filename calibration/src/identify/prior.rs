@@ -53,7 +53,6 @@ impl Basis {
         let (places, errors): (Vec<usize>, Vec<usize>) = (0..model.unknowns.len()).partition(is_placement);
         let places: Vec<usize> = places.into_iter().filter(is_shown).collect();
         let of = |these: &[usize]| model.with(these.iter().map(|k| model.unknowns[*k]).collect());
-        let mut effects = seen.lengths.clone();
         // Places, as these instruments would see them in other configurations.
         let others = Columns::of_rows(model, &elsewhere(model, data)?, x)?;
         let joined = |these: &[usize]| seen.joined(&others, these).ok_or_else(|| Failure::not_finite(data));
@@ -80,14 +79,12 @@ impl Basis {
                 acts_as.extend(all.rest_as(k, &acts_as, &basis));
                 redundant.push((k, acts_as));
             }
-            for (k, length) in errors.iter().zip(&columns.lengths[anew..]) {
-                effects[*k] = if effects[*k] > 0.0 { effects[*k] } else { *length };
-            }
         }
         kept.sort_unstable();
         let numbers = data.iter().map(Observation::count).sum::<usize>().max(1) as f64;
         let deviation = |k: usize| {
-            let flat = if effects[k] > 0.0 { FLAT * numbers.sqrt() / effects[k] } else { 1.0 };
+            let length = seen.lengths[k];
+            let flat = if length > 0.0 { FLAT * numbers.sqrt() / length } else { 1.0 };
             deviations.get(k).copied().flatten().unwrap_or(flat)
         };
         let mut root = DMatrix::zeros(kept.len() + redundant.len(), kept.len());

@@ -239,14 +239,8 @@ impl<'a> ExchangedBasis<'a> {
         let count = kept.len();
         let forms = (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
         let mut basis = Self { model, fit, forms, free: vec![true; count] };
-        // A direction or an intrinsic parameter of an instrument that is held at its expected value
-        // excludes no entry.
-        let held = |k: usize| fit.identifiable.inexact.contains(&k);
-        let is_free = |k: usize, unknown: &Unknown| {
-            matches!(unknown, Unknown::Fixture(..) | Unknown::Intrinsic(_)) && held(k)
-        };
         for (k, unknown) in model.unknowns.iter().enumerate() {
-            if !matches!(unknown, Unknown::Error(..)) && !is_free(k, unknown) {
+            if !matches!(unknown, Unknown::Error(..)) {
                 let coordinates = fit.identifiable.kept_coordinates(k);
                 let taken = coordinates.iter().map(|factor| factor.abs() > 1e-9);
                 basis.free.iter_mut().zip(taken).for_each(|(free, taken)| *free &= !taken);
@@ -261,9 +255,6 @@ impl<'a> ExchangedBasis<'a> {
         let mut coordinates = vec![0.0; self.forms.len()];
         for (unknown, error) in unknowns_of(errors) {
             let unknown = self.model.unknowns.iter().position(|one| *one == unknown)?;
-            if self.fit.identifiable.inexact.contains(&unknown) {
-                return None;
-            }
             let parts = self.fit.identifiable.kept_coordinates(unknown);
             coordinates.iter_mut().zip(parts).for_each(|(sum, part)| *sum += error * part);
         }

@@ -47,8 +47,7 @@ impl FoundModel {
     /// spec does not have.
     fn named(&self, spec: &Spec, of: Uncertain) -> Option<(String, f64)> {
         // A relative deviation of a magnitude of zero is undefined.
-        let source =
-            |name: &str, size: f64| (size != 0.0).then(|| (format!("source = {}", quoted(name)), size));
+        let source = |name: &str, size| (size != 0.0).then(|| (format!("source = {}", quoted(name)), size));
         let error = |component: Component| format!("error = \"{}\"", component.name());
         match of {
             Uncertain::Base(component) => Some((error(component), 1.0)),
