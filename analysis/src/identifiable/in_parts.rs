@@ -40,7 +40,7 @@ use abbe_core::{Component, Manipulator, Pose, Quantity, checks};
 ///
 /// For a tree of frames this is [`identifiable`] itself.
 ///
-/// Returns [`Error::Count`] if `parts` are not those of `A_1 … A_n, T`.
+/// Returns [`Error::Count`](abbe_core::Error::Count) if `parts` are not those of `A_1 … A_n, T`.
 pub fn identifiable_in_parts(
     manipulator: &dyn Manipulator,
     parts: &Parts,

@@ -19,6 +19,9 @@ pub const BLOCK: usize = STREAM;
 /// evaluated in parallel (feature `parallel`), with the same results for any number of threads.
 /// Returns [`Error::Count`] before the first visit if the workspace belongs to another manipulator,
 /// and [`Error::OutOfRange`] if an input is outside its range.
+///
+/// [`Error::Count`]: abbe_core::Error::Count
+/// [`Error::OutOfRange`]: abbe_core::Error::OutOfRange
 pub fn sweep(
     manipulator: &dyn Sweepable,
     workspace: &dyn Workspace,

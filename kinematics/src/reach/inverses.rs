@@ -62,8 +62,8 @@ impl<'a> InverseKinematics<'a> {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`inverse()`] if there is no solution, and [`Error::NotFinite`] if
-    /// `start` is not finite.
+    /// Returns the errors of [`inverse()`] if there is no solution, and
+    /// [`Error::NotFinite`](abbe_core::Error::NotFinite) if `start` is not finite.
     pub fn solve(&self, start: &[f64], target: &Pose) -> Result<Vec<Vec<f64>>, ReachError> {
         let Problem { manipulator, ref s, ref free, .. } = self.problem;
         let one = || inverse(manipulator, s, start, free, &Target::Pose(*target));

@@ -3,7 +3,7 @@
 //! Argument reduction `x = n π/2 + r` with `|r| ≤ π/4` (Cody and Waite), then
 //! `sin r = r + r³ S(r²)` and `cos r = 1 + r² (−1/2 + r² C(r²))` with the minimax polynomials of
 //! fdlibm (error below 2⁻⁵⁸), then the quadrant `n`. The error is below 1.7 ulp for `|x| ≤`
-//! [`REACH`].
+//! `REACH`.
 
 #[cfg(any(test, not(target_arch = "x86_64")))]
 pub(crate) mod array;
