@@ -42,9 +42,11 @@ fn drawn(
     [own, noise]: [f64; 2],
     random: &mut Xoshiro256PlusPlus,
 ) -> (Vec<f64>, Vec<Observation>) {
+    // A tenth of the prior, in its ratio of lengths to angles.
+    let length = 1e-4 * model.arm_length().unwrap();
     let draw = |unknown: &Unknown| match unknown {
         Unknown::Error(_, component) if component.is_rotation() => random.random_range(-1e-4..1e-4),
-        _ => random.random_range(-0.1..0.1),
+        _ => random.random_range(-length..length),
     };
     let truth: Vec<f64> = model.unknowns.iter().map(draw).collect();
     let mut normal = |sigma: f64| random.sample(rand_distr::Normal::new(0.0, sigma).unwrap());
