@@ -42,7 +42,6 @@
 mod allocation;
 mod budget;
 mod identifiable;
-mod measurand;
 mod normal;
 mod parts;
 mod random;
@@ -69,9 +68,8 @@ pub use budget::{
 pub use identifiable::{
     Identifiability, Measurement, Parts, RANK_THRESHOLD, identifiable, identifiable_in_parts,
 };
-pub use measurand::Measurand;
 pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
-pub use parts::ErrorParts;
+pub use parts::{ErrorParts, Measurand};
 pub use random::{MonteCarlo, Quantile, monte_carlo};
 pub use sweep::{BLOCK, Row, Unevaluated, UnreachableSummary, in_order, in_order_until, sweep};
 pub use uncertainty::{

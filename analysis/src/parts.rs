@@ -3,12 +3,13 @@
 //! The parts have the displacements `B = [b_1 b_2 …]` at their bounds, and the error is `B x` with
 //! any `‖x‖ ≤ 1`. It is at most `√(B Bᵀ)_ii` along a row, and its norm at most the largest
 //! singular value of B.
+//!
+//! Measurands: the position of the tool point, and the orientation of the tool.
 
 use abbe_core::{Description, Distribution};
 use abbe_kinematics::sampling::{draw, draw_parts, norm};
 use rand::Rng;
 
-use crate::Measurand;
 use crate::normal::Principal;
 
 /// Parts of the errors of a manipulator.
@@ -81,4 +82,33 @@ pub(crate) fn outer_sum(vectors: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 3
 /// Returns the largest singular value of B, given `B Bᵀ`.
 pub(crate) fn longest(matrix: [[f64; 3]; 3]) -> f64 {
     Principal::new(matrix).deviations[0]
+}
+
+/// Half of the rows of ΔX.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measurand {
+    /// Rows 1–3: position of the tool point in `F_0`, in the length unit.
+    Position,
+    /// Rows 4–6: orientation as the manipulator's [`Orientation`](abbe_core::Orientation) says, in
+    /// rad.
+    Orientation,
+}
+
+impl Measurand {
+    /// Position and orientation, in the order of the rows.
+    pub const ALL: [Self; 2] = [Self::Position, Self::Orientation];
+
+    /// Returns the index of the first row, from 0.
+    pub const fn first(self) -> usize {
+        match self {
+            Self::Position => 0,
+            Self::Orientation => 3,
+        }
+    }
+
+    /// Returns the rows of a deviation.
+    pub const fn rows(self, deviation: &[f64; 6]) -> [f64; 3] {
+        let first = self.first();
+        [deviation[first], deviation[first + 1], deviation[first + 2]]
+    }
 }

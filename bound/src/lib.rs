@@ -1,9 +1,9 @@
 //! Certified bounds of the largest value of a nonnegative node over a box of joints and inputs, by
 //! branch and bound.
 //!
-//! [`largest`] bounds a node, and `singular` the least or the largest singular value of a matrix of
-//! nodes. `tape` holds the operations of a graph in order. Two methods bound the value within one
-//! box (`search_box`):
+//! [`largest`] bounds a node, or a sum by its parts, and `singular` the least or the largest
+//! singular value of a matrix of nodes. `tape` holds the operations of a graph in order. Two
+//! methods bound the value within one box (`search_box`):
 //!
 //! - A norm whose parts are affine or quadratic in the sine and cosine of each angle (`convex`) is
 //!   largest at one of the control points (`controls`, `corners`), evaluated by the numbers of
@@ -13,7 +13,7 @@
 //!
 //! `search` examines the boxes of a `problem`, the most promising first, and starts with the
 //! maximum of a `local_search`. `unknowns` encloses what loops determine. `period` recognizes
-//! joints that are periodic, and `apart` bounds sums by their parts.
+//! joints that are periodic.
 //!
 //! ```
 //! use abbe_codegen::chain::Magnitude;
@@ -35,17 +35,13 @@
 //! ```
 
 mod affine;
-mod apart;
 mod controls;
 mod convex;
 mod corners;
-mod effort;
 mod largest;
 mod local_search;
-mod moving;
 mod period;
 mod problem;
-mod queue;
 mod search;
 mod search_box;
 mod singular;
@@ -54,9 +50,6 @@ mod tape;
 mod unknowns;
 mod vertex;
 
-pub use apart::{Limits, limits};
-pub use effort::{Effort, Progress, Watch};
-pub use largest::largest;
-pub use moving::{MOST_MOVING, Moving};
-pub use search::Bound;
+pub use largest::{Limits, largest, limits};
+pub use search::{Bound, Effort, MOST_MOVING, Moving, Progress, Watch};
 pub use singular::{Extreme, Singular, singular_value};

@@ -1,12 +1,19 @@
 //! Branch and bound: bisects the box with the largest upper bound first.
+//!
+//! Queue of the boxes of a search.
+//!
+//! Limits and progress of a search.
+//!
+//! Names that move within a range: joints, parameters and inputs.
 
+use std::collections::BTreeMap;
+
+use abbe_spec::expr::Symbol;
 use rayon::prelude::*;
 
 use crate::corners::Corners;
-use crate::effort::{Effort, Progress, Watch};
 use crate::local_search::{ascend, highest};
 use crate::problem::{Point, Problem};
-use crate::queue::Queue;
 use crate::search_box::{SearchBox, Workspace};
 use crate::unknowns::Buffers;
 
@@ -135,4 +142,91 @@ impl Search {
             _ => value.max(0.0),
         }
     }
+}
+
+/// Items by a bound: that with the least bound comes first, among equal bounds the oldest.
+pub(crate) struct Queue<T> {
+    items: BTreeMap<(i64, usize), T>,
+    pushed: usize,
+}
+
+impl<T> Default for Queue<T> {
+    fn default() -> Self {
+        Self { items: BTreeMap::new(), pushed: 0 }
+    }
+}
+
+impl<T> Queue<T> {
+    pub(crate) fn push(&mut self, bound: f64, item: T) {
+        self.pushed += 1;
+        // Integers in the total order of the numbers, as `f64::total_cmp` compares them.
+        let bits = bound.to_bits() as i64;
+        self.items.insert((bits ^ (((bits >> 63) as u64) >> 1) as i64, self.pushed), item);
+    }
+
+    pub(crate) fn first(&self) -> Option<&T> {
+        self.items.first_key_value().map(|(_, item)| item)
+    }
+
+    pub(crate) fn pop(&mut self) -> Option<T> {
+        self.items.pop_first().map(|(_, item)| item)
+    }
+}
+
+/// Termination criteria of a search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// Relative gap between the certified and the found value at which the search ends.
+    pub gap: f64,
+    /// Number of boxes after which the search ends.
+    pub boxes: usize,
+    /// Number of evaluations of quadratic parts after which the search ends; a box takes up to six
+    /// for each combination of its angles.
+    pub samples: usize,
+    /// Known upper bound of the largest value; infinite if there is none.
+    pub at_most: f64,
+    /// Value below which the search ends, because so little does not matter.
+    pub nothing: f64,
+}
+
+impl Effort {
+    /// A gap of 1 %, and 300,000 boxes.
+    pub const DEFAULT: Self =
+        Self { gap: 0.01, boxes: 300_000, samples: usize::MAX, at_most: f64::INFINITY, nothing: 0.0 };
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// Caller of a search, which ends where this returns `false`.
+pub type Watch<'w> = dyn FnMut(&Progress) -> bool + 'w;
+
+/// Progress of a search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Largest value found so far.
+    pub found: f64,
+    /// Certified upper bound so far.
+    pub certified: f64,
+    /// Number of boxes examined.
+    pub boxes: usize,
+}
+
+/// Maximum number of moving names that a node may depend on; no bound is proved for more.
+pub const MOST_MOVING: usize = 32;
+
+/// A name that moves within a range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moving {
+    /// The symbol.
+    pub symbol: Symbol,
+    /// Range of the name: finite, lower end first.
+    pub range: [f64; 2],
+    /// Value of the name if the node does not depend on it.
+    pub home: f64,
+    /// Value at which the search starts.
+    pub start: f64,
 }

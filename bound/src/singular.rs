@@ -6,10 +6,8 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::affine::{Affine, above};
-use crate::effort::{Effort, Progress, Watch};
-use crate::moving::{MOST_MOVING, Moving};
 use crate::period;
-use crate::queue::Queue;
+use crate::search::{Effort, MOST_MOVING, Moving, Progress, Queue, Watch};
 use crate::search_box::centres;
 use crate::tape::Tape;
 

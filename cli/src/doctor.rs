@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use abbe_metrology::data::Source;
 use abbe_metrology::doctor;
 use abbe_report::views;
-use abbe_spec::document::Document;
+use abbe_spec::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
 use abbe_study::Notes;

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::io::{IsTerminal, Write, stderr};
 use std::process::ExitCode;
 
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
 use abbe_study::mistake;
 
 use crate::signs::shown;

@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use abbe::VariableKind;
 use abbe::identify::Loss;
-use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};
 use abbe_metrology::identify::{self, Family, Harmonics, Prior, Report, Settings};
+use abbe_metrology::{Acceptance, AcceptanceVerdict};
 use abbe_report::text::{Detail, wrapped};
 use abbe_report::views;
 use abbe_spec::Spec;
@@ -127,7 +127,7 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
         file.fill(&document().measured_page(&job.machine, map, files, residuals, &mut Console::default())?)
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
-    let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
+    let accepted = report.accepted.as_ref().is_none_or(AcceptanceVerdict::is_met);
     let next = match (&arguments.out, report.found.is_placement) {
         (None, _) => "--out SPEC writes the identified machine, --full lists every error",
         (Some(_), true) => "--full lists every place with its standard deviation",

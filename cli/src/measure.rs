@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use abbe_metrology::AcceptanceVerdict;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::measure::{self, Report};
 use abbe_report::views;
@@ -28,8 +29,13 @@ pub(crate) struct Measure {
     /// `new` if the instrument was moved
     #[arg(long, value_enum, value_name = "WHICH")]
     station: Option<Station>,
-    /// Acceptance limits on mean, rms, p95 and max of the position error that remains after the
-    /// sources of the spec: `mean 0.15 mm, max 0.3 mm`. Exit with status 1 if they are not met
+    /// Judge rows whose commands were corrected by this spec, as with `commands = "corrected"` in the
+    /// map
+    #[arg(long)]
+    corrected: bool,
+    /// Acceptance limits on mean, rms, p95 and max of the position error of the machine:
+    /// `mean 0.15 mm, max 0.3 mm`. Exit with status 1 if they are not met beyond the uncertainty of
+    /// the measurement
     #[arg(long, value_name = "LIMITS")]
     accept: Option<String>,
     /// Write report.html, and errors.csv with ΔX, prediction and residual of every row, into this
@@ -53,6 +59,7 @@ pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.measured.map, &machine.spec)?;
     let mut map = if arguments.station.is_some() { map.newly_stationed() } else { map };
+    map.is_corrected |= arguments.corrected;
     arguments.dated.date(&mut map.record);
     let data = Data::read(&arguments.measured.data, &map)?;
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
@@ -78,7 +85,7 @@ pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
 }
 
 fn outcome(arguments: &Measure, spec: &Spec, map: &Map, report: &Report) -> Result<Outcome, Failure> {
-    let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
+    let accepted = report.accepted.as_ref().is_none_or(AcceptanceVerdict::is_met);
     let next = match (report.explained.repeatable, &arguments.out) {
         (0, _) => "abbe identify finds the errors of this machine; --full for all figures of ISO 9283",
         (_, None) => "--out DIR for a page and the errors of each row, --full for all figures of ISO 9283",

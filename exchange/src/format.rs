@@ -3,8 +3,7 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::notes::Notes;
+use abbe_spec::{Diagnostics, Notes};
 
 use crate::export::{ExportReport, RealMachine};
 use crate::urdf::Ends;

@@ -9,9 +9,8 @@
 use std::fmt::Write;
 
 use abbe::Pose;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::mistake;
 use abbe_spec::number::digits;
+use abbe_spec::{Diagnostics, mistake};
 
 use crate::export::report::unreadable;
 use crate::export::rotary_axes::{Kinematics, RotaryAxis, TabledAxis};

@@ -8,10 +8,8 @@ use abbe::analysis::{compensated, sampling};
 use abbe::{Error, Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::csv_writer::{Csv, Heading};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::mistake;
-use abbe_spec::notes::Notes;
 use abbe_spec::number::{digits, variables};
+use abbe_spec::{Diagnostics, Notes, mistake};
 
 use crate::export::report::unreadable;
 use crate::export::{ExportReport, ExportedFile, PoseDifference, RealMachine};

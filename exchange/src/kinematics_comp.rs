@@ -12,9 +12,8 @@
 use std::fmt::Write;
 
 use abbe::Error;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::mistake;
 use abbe_spec::number::digits;
+use abbe_spec::{Diagnostics, mistake};
 
 use crate::export::report::unreadable;
 use crate::export::rotary_axes::RotaryAxis;

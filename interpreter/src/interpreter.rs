@@ -10,7 +10,7 @@ use abbe_codegen::program::{Routines, parameter_derivatives};
 use abbe_spec::Spec;
 
 use crate::lanes::{Batch, Block};
-use crate::tape::Tape;
+use crate::operation::Tape;
 
 /// A manipulator that runs from its spec, without a compiler.
 #[derive(Clone, Debug)]

@@ -9,8 +9,7 @@ use abbe::lanes::{Kernel, Lanes, Register, Tiles};
 use abbe_codegen::program::Action;
 use abbe_spec::expr::{Function, Lookup, Table};
 
-use crate::operation::{Chain, Instruction, Link, LinkKind, Operation, Slot};
-use crate::tape::{Part, Tape};
+use crate::operation::{Chain, Instruction, Link, LinkKind, Operation, Part, Slot, Tape};
 
 /// Number of tiles of a batch that are evaluated together: enough to amortize dispatch, few enough
 /// for all slots to fit in the cache.

@@ -21,13 +21,12 @@
 //! ```
 //!
 //! `chains` groups the steps of a program, each chain an `operation` on slots. `pack` builds a
-//! `tape` of them, and `lanes` evaluates it.
+//! tape of them, and `lanes` evaluates it.
 
 mod chains;
 mod interpreter;
 mod lanes;
 mod operation;
 mod pack;
-mod tape;
 
 pub use interpreter::Interpreter;

@@ -7,8 +7,7 @@ use abbe_codegen::program::{Action, Block, Operand, Program, Role, Routine, Rout
 use abbe_spec::expr::Symbol;
 
 use crate::chains::chains;
-use crate::operation::{Operation, Slot};
-use crate::tape::{Part, Tape, Turn};
+use crate::operation::{Operation, Part, Slot, Tape, Turn};
 
 impl Tape {
     /// Packs a function. Arguments and results are concatenated, and the margin is last.

@@ -20,6 +20,30 @@ pub struct Acceptance {
     pub limits: Vec<(&'static str, f64)>,
 }
 
+/// Subject of a verdict, whose errors its figures are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Judged {
+    /// The machine as built: measured minus ideal.
+    Machine,
+    /// The machine whose commands were corrected: measured minus what they were corrected for.
+    Corrected,
+    /// The model of the machine: measured minus predicted.
+    Model,
+}
+
+/// Outcome of a comparison with limits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Decision {
+    /// Beyond the limit by more than the uncertainty.
+    Rejected,
+    /// Nearer to the limit than the uncertainty.
+    Undecided,
+    /// Within the limit by at least the uncertainty.
+    Accepted,
+}
+
 /// A limit compared with its figure.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct LimitCheck {
@@ -29,19 +53,34 @@ pub struct LimitCheck {
     pub limit: f64,
     /// Actual value, in the length unit.
     pub value: f64,
-    /// Indicates that the value does not exceed the limit.
-    pub met: bool,
+    /// Expanded uncertainty of the value, one-sided with 95 %, in the length unit; 0 where none is
+    /// counted.
+    pub uncertainty: f64,
+    /// Outcome: a value is accepted if it conforms beyond its uncertainty.
+    pub decision: Decision,
 }
 
 /// Acceptance verdict on rows that were not used for fitting.
 #[derive(Clone, Debug, Serialize)]
 pub struct AcceptanceVerdict {
+    /// Subject.
+    pub judged: Judged,
     /// Name of the rows, such as `the test rows`.
     pub rows: &'static str,
     /// Comparisons, one per limit.
     pub limits: Vec<LimitCheck>,
-    /// Indicates that all limits are met.
-    pub met: bool,
+    /// The worst of their outcomes.
+    pub decision: Decision,
+}
+
+/// Normal quantile `Φ⁻¹(0.95)`.
+const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
+
+impl AcceptanceVerdict {
+    /// Returns whether all limits are met beyond the uncertainty.
+    pub fn is_met(&self) -> bool {
+        self.decision == Decision::Accepted
+    }
 }
 
 impl Acceptance {
@@ -79,19 +118,36 @@ impl Acceptance {
     }
 
     /// Compares the figures with the limits; returns `None` without limits.
-    pub fn verdict(&self, rows: &'static str, sizes: &Sizes) -> Option<AcceptanceVerdict> {
+    ///
+    /// `noise` is the standard uncertainty of a measured coordinate, and `configurations` their
+    /// number; mean and root mean square are known `√configurations` times better than one error.
+    /// ISO 14253-1:2017 and JCGM 106:2012, 8.3: the guard band is the uncertainty for a risk of 5
+    /// %.
+    pub(crate) fn verdict(
+        &self,
+        (judged, rows): (Judged, &'static str),
+        sizes: &Sizes,
+        (noise, configurations): (f64, usize),
+    ) -> Option<AcceptanceVerdict> {
         let limit = |(figure, limit): &(&'static str, f64)| {
-            let value = match *figure {
-                "mean" => sizes.mean,
-                "rms" => sizes.rms,
-                "p95" => sizes.p95,
-                _ => sizes.max,
+            let of_mean = noise / f64::sqrt(configurations.max(1) as f64);
+            let (value, deviation) = match *figure {
+                "mean" => (sizes.mean, of_mean),
+                "rms" => (sizes.rms, of_mean),
+                "p95" => (sizes.p95, noise),
+                _ => (sizes.max, noise),
             };
-            LimitCheck { figure, limit: *limit, value, met: value <= *limit }
+            let uncertainty = ONE_SIDED_95 * deviation;
+            let decision = match limit - value {
+                room if room >= uncertainty => Decision::Accepted,
+                room if room < -uncertainty => Decision::Rejected,
+                _ => Decision::Undecided,
+            };
+            LimitCheck { figure, limit: *limit, value, uncertainty, decision }
         };
         let limits: Vec<LimitCheck> = self.limits.iter().map(limit).collect();
-        let met = limits.iter().all(|limit| limit.met);
-        (!limits.is_empty()).then_some(AcceptanceVerdict { rows, limits, met })
+        let decision = limits.iter().map(|limit| limit.decision).min()?;
+        Some(AcceptanceVerdict { judged, rows, limits, decision })
     }
 
     /// Formats the limits as [`read`](Self::read) parses them; empty without any.

@@ -24,4 +24,4 @@ mod reads;
 mod running_sums;
 mod sizes;
 
-pub use acceptance::{Acceptance, AcceptanceVerdict, LimitCheck};
+pub use acceptance::{Acceptance, AcceptanceVerdict, Decision, Judged, LimitCheck};

@@ -17,14 +17,17 @@ from ._fields import Fields, Named
 class AcceptanceVerdict(Fields):
     """Acceptance verdict on rows that were not used for fitting."""
 
+    judged: Literal["machine", "corrected", "model"]
+    """Subject."""
+
     rows: str
     """Name of the rows, such as `the test rows`."""
 
     limits: list[LimitCheck]
     """Comparisons, one per limit."""
 
-    met: bool
-    """Indicates that all limits are met."""
+    decision: Literal["rejected", "undecided", "accepted"]
+    """The worst of their outcomes."""
 
 
 class AfterCompensation(Fields):
@@ -470,20 +473,22 @@ class Chart(Fields):
 
     values: list[float]
     """Value at every check: the error under the assumption that all others are unchanged, in `unit`; for the
-    residual, its norm in units of the instrument's uncertainty.
+    residual, the root mean square of its deviation from the checks before, in units of the instrument's
+    uncertainty.
     """
 
     average: list[float]
-    """EWMA at every check, as a share of the limit. An alarm is a value beyond ±1 for an error, above 1 for the
-    residual.
-    """
+    """EWMA at every check, as a share of the limit. An alarm is a value beyond ±1. None for the residual."""
+
+    single: list[float]
+    """Deviation of every check from those before it, as a share of the limit. An alarm is a value beyond ±1."""
 
     alarm: int | None
-    """Index of the first check beyond the limit, from 0."""
+    """Index of the first check beyond a limit, from 0."""
 
 
 class ChartsLimit(Fields):
-    """Control limit of the moving averages.
+    """Control limits.
 
     `["lambda"]`: Weight of a new check in an average, a factor from 0 to 1.
     """
@@ -493,6 +498,9 @@ class ChartsLimit(Fields):
 
     limit: float
     """Limit as a factor of the standard deviation of an average."""
+
+    chance: float
+    """Probability with which one chart sets a single check apart by chance."""
 
 
 class CheckReport(Report):
@@ -1175,6 +1183,11 @@ class Finding(Fields):
     angle: float | None
     """Root mean square residual of the orientations, in rad; None if the data have no orientations."""
 
+    spread: float
+    """Root mean square distance of the positions from their mean, as this interpretation reads them, in the spec's
+    length unit.
+    """
+
     both: float
     """Combined root mean square residual, in the spec's length unit, which is compared with `within`. Angles are
     multiplied by a lever of 0.3 × the spread of the positions. Corrected for the degrees of freedom that fitted
@@ -1491,6 +1504,9 @@ class IdentifyReport(Report):
 
     tried: int
     """Number of groups of terms that were tried."""
+
+    families: str
+    """Families that have them, by their names in `--terms`."""
 
     profiles: JointProfiles | None
     """Profiles of joints; none if they were not tried, or do not reduce the cross-validation error significantly."""
@@ -1921,8 +1937,11 @@ class LimitCheck(Fields):
     value: float
     """Actual value, in the length unit."""
 
-    met: bool
-    """Indicates that the value does not exceed the limit."""
+    uncertainty: float
+    """Expanded uncertainty of the value, one-sided with 95 %, in the length unit; 0 where none is counted."""
+
+    decision: Literal["rejected", "undecided", "accepted"]
+    """Outcome: a value is accepted if it conforms beyond its uncertainty."""
 
 
 class Link(Fields):
@@ -2167,7 +2186,10 @@ class MeasureReport(Report):
     """Characteristics of repeated visits."""
 
     accepted: AcceptanceVerdict | None
-    """Verdict on the declared limits, if any."""
+    """Verdict on the machine by the declared limits, if any."""
+
+    agreed: AcceptanceVerdict | None
+    """Comparison of what the repeatable sources of the spec leave with the same limits."""
 
     extrapolated: Extrapolation | None
     """Rows outside the fitted ranges, and the predicted uncertainty there; none if there are no such rows."""
@@ -2216,7 +2238,7 @@ class MonitorFinding(Fields):
     """
 
     kind: str
-    """Kind of change: `drift` or `jump`."""
+    """Kind of change: `drift`, `jump` or `excursion`, a jump that went back."""
 
     since: float
     """Time of the change, or of the beginning of the drift, as counted by the calendar."""
@@ -2246,6 +2268,15 @@ class MonitorFinding(Fields):
 
     moved: float
     """Displacement of the tool point at that configuration until the last check, in the length unit."""
+
+    until_date: str | None
+    """Date at which an excursion was over."""
+
+    farthest: float
+    """Largest displacement of the tool point at that configuration at any check, in the length unit."""
+
+    farthest_date: str
+    """Date of that check."""
 
     leaves: Exceedance | None
     """Time at which the tolerance is exceeded, if there are a tolerance and a drift."""
@@ -2639,6 +2670,9 @@ class PlanReport(Report):
     """Errors that move the tool point at these configurations but that the rows cannot determine. `predicted`
     excludes them.
     """
+
+    sums: list[Redundant]
+    """Magnitudes that others stand for: the rows determine only their sum."""
 
 
 class PoseDifference(Fields):
@@ -3349,7 +3383,7 @@ class ToleranceVerdict(Fields):
 
 class ToolPointDeviation(Fields):
     """Standard deviation of the tool point (√trace of its covariance) caused by the covariance of the identified
-    errors, in the length unit.
+    errors and by the random sources, in the length unit.
     """
 
     within: float
@@ -3450,7 +3484,7 @@ class UndeterminedError(Fields):
     """
 
     per: str
-    """Unit of the error: `mrad`, or the length unit."""
+    """Unit of the error: `mrad`, the length unit, or empty for a magnitude."""
 
 
 class Unidirectional(Fields):

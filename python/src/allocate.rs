@@ -7,9 +7,8 @@ use abbe_report::views;
 use abbe_study::allocate::Allocate;
 use pyo3::prelude::*;
 
-use crate::job::run;
+use crate::job::{self, Tolerances, run};
 use crate::machine::Machine;
-use crate::options::{self, Tolerances};
 use crate::report::Report;
 
 #[pymethods]
@@ -45,7 +44,7 @@ impl Machine {
     ) -> PyResult<Py<Report>> {
         let (report, notes) = run(py, threads, progress, |notes| {
             let machine = self.unchanged.clone();
-            let mut study = options::study(study.as_deref(), study_text, &machine)?;
+            let mut study = job::study(study.as_deref(), study_text, &machine)?;
             study.limit(&Tolerances::texts(tolerance), &machine.spec)?;
             let mut job = Allocate::new(machine, study);
             self.changes()?.iter().for_each(|changes| job.change(changes));

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
 use abbe_study::Notes;
 use abbe_study::analyze::Analyze;
 use abbe_study::analyze::options::DRAWS;
@@ -13,10 +13,9 @@ use abbe_study::explore::Explore;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::analysis_report::analysis;
-use crate::job::run;
+use crate::job::{self, Tolerances, run, within};
 use crate::machine::Machine;
-use crate::options::{self, Tolerances, within};
+use crate::part::analysis;
 
 impl Machine {
     /// Returns the analysis of the machine with its changes and default options.
@@ -27,7 +26,7 @@ impl Machine {
         tolerances: &[String],
         notes: &mut dyn Notes,
     ) -> Result<Analyze, Diagnostics> {
-        let mut study = options::study(study, study_text, &self.unchanged)?;
+        let mut study = job::study(study, study_text, &self.unchanged)?;
         study.limit(tolerances, &self.unchanged.spec)?;
         let mut job = Analyze::new(self.unchanged.clone(), study);
         self.changes()?.iter().for_each(|changes| job.change(changes, notes));

@@ -10,9 +10,8 @@ use abbe_study::bound::options::{BOXES, Gap};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::job::run;
+use crate::job::{self, Tolerances, run, seconds, within};
 use crate::machine::Machine;
-use crate::options::{self, Tolerances, seconds, within};
 use crate::report::Report;
 
 #[pymethods]
@@ -64,7 +63,7 @@ impl Machine {
         let time = seconds("time", time)?;
         let (report, notes) = run(py, threads, progress, |notes| {
             let machine = self.unchanged.clone();
-            let mut study = options::study(study.as_deref(), study_text, &machine)?;
+            let mut study = job::study(study.as_deref(), study_text, &machine)?;
             study.limit(&Tolerances::texts(tolerance), &machine.spec)?;
             let mut job = Job::new(machine.clone(), study);
             self.changes()?.iter().for_each(|changes| job.change(changes));

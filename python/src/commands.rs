@@ -12,9 +12,8 @@ use pyo3::types::{PyDict, PyString, PyTuple};
 use crate::arrays::{empty, numbers, output_array, tuple};
 use crate::failure::guarded;
 use crate::functions::vec_of;
-use crate::job::run;
+use crate::job::{length, run};
 use crate::machine::Machine;
-use crate::options::length;
 
 /// Corrected joint commands of one or many configurations.
 #[pyclass(frozen, get_all, module = "abbe")]

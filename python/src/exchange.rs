@@ -4,16 +4,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use abbe_report::{text, views};
-use abbe_spec::document::Document;
+use abbe_spec::Document;
 use abbe_study::export::{Ends, Export, Format as Exported, FormatMismatch, SAMPLES_RANGE};
 use abbe_study::import::{Format, Import, Units};
 use abbe_study::options::CONVENTIONS;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::job::run;
+use crate::job::{named, one_of, run, within};
 use crate::machine::Machine;
-use crate::options::{named, one_of, within};
 use crate::report::Report;
 
 /// Converts a URDF robot to a spec, from a `file` or its `text`.

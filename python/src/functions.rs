@@ -2,7 +2,7 @@
 
 use abbe::function::Array;
 use abbe::{Description, Function, Manipulator, Quantity};
-use abbe_spec::document::Document;
+use abbe_spec::Document;
 use abbe_spec::value::parse_value;
 use abbe_study::mistake;
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn, PyUntypedArrayMethods};

@@ -5,9 +5,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
-use crate::job::run;
+use crate::job::{named, run};
 use crate::machine::Machine;
-use crate::options::named;
 
 #[pymethods]
 impl Machine {

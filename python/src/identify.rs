@@ -12,10 +12,9 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use crate::job::run;
+use crate::job::{limits, named, run, seconds, within};
 use crate::machine::Machine;
 use crate::measured::{Measured, unusable};
-use crate::options::{limits, named, seconds, within};
 use crate::report::{Pages, Report};
 
 #[pymethods]

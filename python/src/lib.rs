@@ -2,15 +2,14 @@
 //! NumPy arrays.
 //!
 //! `machine` is the class `Machine`, `evaluated` its functions, and `commands` its inverse
-//! kinematics and compensation. Each job has a file with the name of its command; `exchange` has
-//! imports and exports. `options` checks the arguments of jobs. `functions` evaluates functions:
-//! `layout` maps results to arrays, `arrays` converts arguments, `measured` reads measurements,
-//! `batch` loops over configurations. `job` runs a job, `report` is its result, `table` exports
-//! tables to Arrow, `part` is a part of an analysis, `failure` converts errors to exceptions, and
-//! `words` says what the command calls options in terms of Python.
+//! kinematics and compensation. Each job on a spec has a file with the name of its command, and so
+//! has `identify`; `measured` reads measurements and has the other jobs on them, `exchange` has
+//! imports and exports. `functions` evaluates functions: `layout` maps results to arrays, `arrays`
+//! converts arguments, `batch` loops over configurations. `job` checks the arguments of a job and
+//! runs it, `report` is its result, `table` exports tables to Arrow, `part` is a part of an
+//! analysis, and `failure` converts errors to exceptions.
 
 mod allocate;
-mod analysis_report;
 mod analyze;
 mod arrays;
 mod batch;
@@ -18,7 +17,6 @@ mod bound;
 mod check;
 mod commands;
 mod derivatives;
-mod doctor;
 mod evaluated;
 mod exchange;
 mod explore;
@@ -29,15 +27,9 @@ mod identify;
 mod job;
 mod layout;
 mod machine;
-mod measure;
 mod measured;
-mod monitor;
-mod options;
 mod part;
-mod plan;
-mod positioning;
 mod report;
-mod simulate;
 mod table;
 
 /// Compiled part of the package `abbe`.
@@ -54,9 +46,9 @@ mod _abbe {
     #[pymodule_export]
     use super::machine::{Machine, load, restore, shipped};
     #[pymodule_export]
-    use super::part::{Part, merge, restore as restore_part};
+    use super::measured::positioning;
     #[pymodule_export]
-    use super::positioning::positioning;
+    use super::part::{Part, merge, restore as restore_part};
     #[pymodule_export]
     use super::report::{Report, restore as restore_report};
     #[pymodule_export]

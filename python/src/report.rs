@@ -9,7 +9,7 @@ use std::sync::Arc;
 use abbe_metrology::data;
 use abbe_report::text::Detail;
 use abbe_report::{Document, Picture};
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;

@@ -1,11 +1,18 @@
 //! CSV files that spreadsheets read without running formulas.
+//!
+//! Cells of CSV files that a spreadsheet would execute.
+//!
+//! A spreadsheet takes text that starts with `=`, `+`, `-`, `@`, one of their full-width forms, `|`
+//! or a control character as a formula unless it is a number, some even after blanks. A leading
+//! apostrophe makes it text; the reader removes it again.
+
+#[cfg(test)]
+mod tests;
 
 use std::borrow::Cow;
 use std::io::{self, Write};
 
 use csv::{QuoteStyle, WriterBuilder};
-
-use crate::cell::harmless;
 
 /// The heading line of a CSV file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,4 +62,34 @@ impl<W: Write> Csv<W> {
 fn number(value: f64) -> String {
     let value = format!("{value:.9e}").parse::<f64>().unwrap_or(value);
     format!("{}", value + 0.0)
+}
+
+/// Escapes a text for a cell.
+///
+/// ```
+/// use abbe_spec::csv_writer::harmless;
+/// assert_eq!(harmless("=1+2"), "'=1+2");
+/// assert_eq!(harmless("x, measured"), "x, measured");
+/// assert_eq!(harmless("-1.5e-3"), "-1.5e-3");
+/// ```
+pub fn harmless(text: &str) -> Cow<'_, str> {
+    match begins_a_formula(text) && text.parse::<f64>().is_err() {
+        true => format!("'{text}").into(),
+        false => text.into(),
+    }
+}
+
+/// Returns the text of a cell: the inverse of [`harmless`].
+pub fn meant(cell: &str) -> &str {
+    cell.strip_prefix('\'').filter(|text| begins_a_formula(text)).unwrap_or(cell)
+}
+
+/// Characters with which a formula starts.
+const STARTS: [char; 12] = ['=', '+', '-', '@', '|', '＝', '＋', '－', '＠', '\t', '\r', '\n'];
+
+/// Returns `true` for a formula, possibly after apostrophes and blanks: text that starts with
+/// apostrophes is escaped by one more.
+fn begins_a_formula(text: &str) -> bool {
+    let is_blank = |c: char| c.is_whitespace() && !STARTS.contains(&c);
+    text.trim_start_matches(|c| c == '\'' || is_blank(c)).starts_with(STARTS)
 }

@@ -24,7 +24,6 @@
 //! Later crates report by [`mistake`] and [`notes`], and show values by [`number`].
 
 pub mod bounded;
-pub mod cell;
 pub mod csv_writer;
 pub mod degrees;
 pub mod diagnostic;
@@ -45,9 +44,10 @@ mod manipulator;
 mod not_toml;
 
 pub use diagnostic::{Diagnostic, Diagnostics};
-pub use document::Document;
+pub use document::{Document, Item, Section};
 pub use manipulator::{
     Axes, Beam, Cause, ChainNumber, Closure, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
     DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, Loop, MAGNITUDE, Magnitude, Matrix,
     Parameter, Point, Source, Spec, TABLES, Tree, Uncertain, Variable, as_identifier, check_name, rules,
 };
+pub use notes::Notes;

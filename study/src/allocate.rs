@@ -1,7 +1,7 @@
 //! Allocation: factors of the error sources with which a study keeps its tolerance at least cost.
 
 use abbe::analysis::{Sweepable, Workspace};
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
 
 use crate::analyze::{self, Analyze, Verdict};
 use crate::changes::Changes;

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use abbe::identify::{Failure, Measurement, Model, Observation, Role, Uncertainty, Unknown};
-use abbe::{Manipulator, Pose};
+use abbe::{Class, Description, Manipulator, Pose};
 use abbe_spec::{Identified, Source, Spec, Uncertain};
 
 /// Name of all random sources of a calibration together.
@@ -33,18 +33,14 @@ impl CalibrationErrors {
     }
 }
 
-/// Predicts the errors of a point of the tool from those of a calibration.
+/// Predicts the deviation of a point of the tool from where an identified machine has it: by the
+/// errors of the calibration, and by the random sources of the spec, among them what its model does
+/// not explain.
 pub struct Prediction<'a> {
     model: Model<'a>,
     errors: &'a CalibrationErrors,
-}
-
-/// Errors of a point at one configuration.
-pub struct PredictedErrors {
-    /// Pose of the tool in `F_0`.
-    pub pose: Pose,
-    /// Displacement of the point by each part of the calibration's errors, in the length unit.
-    pub displacements: Vec<[f64; 3]>,
+    /// Variances of the magnitudes of random sources, the last unknowns of the model.
+    random: Vec<f64>,
 }
 
 impl<'a> Prediction<'a> {
@@ -66,42 +62,46 @@ impl<'a> Prediction<'a> {
         if errors.of.is_empty() {
             return None;
         }
+        let random = random_sources(manipulator.description()).into_iter();
+        let (of_random, random): (Vec<Unknown>, Vec<f64>) =
+            random.map(|(source, variance)| (Unknown::Magnitude(source), variance)).unzip();
         let ideal = Model::ideal(manipulator, vec![[0.0; 3]], Uncertainty { length: 1.0, angle: 1.0 });
         let [x, y, z, _] = Pose::IDENTITY.0;
-        let model = Model { mountings: vec![Pose([x, y, z, point])], ..ideal }.with(unknowns);
+        let ideal = Model { mountings: vec![Pose([x, y, z, point])], ..ideal };
+        let model = ideal.with([unknowns, of_random].concat());
         debug_assert!(model.roles.iter().all(|role| *role != Role::Known), "nothing but what is unknown");
-        Some(Self { model, errors })
+        Some(Self { model, errors, random })
     }
 
     /// Returns the standard deviation of the point (√trace of its covariance) at each configuration
     /// that can be evaluated.
     pub fn deviations(&self, configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>) -> Vec<f64> {
-        let predicted = configurations.filter_map(|(q, u)| self.errors_at(q, u).ok());
-        predicted.map(|errors| errors.standard_deviation()).collect()
+        configurations.filter_map(|(q, u)| self.deviation(q, u).ok()).collect()
     }
 
-    /// Returns `M l` for each part l, where M is the Jacobian of the point with respect to the
-    /// identified quantities.
-    pub fn errors_at(&self, q: Vec<f64>, u: Vec<f64>) -> Result<PredictedErrors, Failure> {
+    /// Returns `√(Σ_l |M l|² + Σ_k v_k |m_k|²)` for the parts l of the covariance and random
+    /// sources of variances v, with the Jacobians M and m of the point.
+    fn deviation(&self, q: Vec<f64>, u: Vec<f64>) -> Result<f64, Failure> {
         let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
         let zero = vec![0.0; self.model.unknowns.len()];
-        let (pose, of_unknowns) = self.model.at(&zero).tool(&row)?;
-        let mut of_unknowns = of_unknowns.into_iter();
-        let errors = self.errors;
-        let moves = errors.of.iter().map(|one| match one {
+        let (_, of_unknowns) = self.model.at(&zero).tool(&row)?;
+        let (of_errors, of_random) = of_unknowns.split_at(zero.len() - self.random.len());
+        let mut of_errors = of_errors.iter().copied();
+        let moves = self.errors.of.iter().map(|one| match one {
             Identified::Joint(joint) => self.moves_of_joint(&row, *joint),
-            _ => Ok(of_unknowns.next().unwrap_or_default()),
+            _ => Ok(of_errors.next().unwrap_or_default()),
         });
         let moves: Vec<[f64; 3]> = moves.collect::<Result<_, Failure>>()?;
         let displacement = |part: &Vec<f64>| {
             let terms = moves.iter().zip(part);
             terms.fold([0.0; 3], |sum, (moved, size)| std::array::from_fn(|i| sum[i] + size * moved[i]))
         };
-        Ok(PredictedErrors { pose, displacements: self.errors.parts.iter().map(displacement).collect() })
+        let square = |moved: [f64; 3]| moved.iter().map(|v| v * v).sum::<f64>();
+        let of_parts: f64 = self.errors.parts.iter().map(|part| square(displacement(part))).sum();
+        let of_random = of_random.iter().zip(&self.random).map(|(moved, variance)| variance * square(*moved));
+        Ok((of_parts + of_random.sum::<f64>()).sqrt())
     }
-}
 
-impl Prediction<'_> {
     /// Returns the derivative of the point with respect to a joint, by central differences.
     fn moves_of_joint(&self, row: &Observation, joint: usize) -> Result<[f64; 3], Failure> {
         let zero = vec![0.0; self.model.unknowns.len()];
@@ -113,13 +113,6 @@ impl Prediction<'_> {
         };
         let (before, after) = (at(-STEP)?, at(STEP)?);
         Ok(std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * STEP)))
-    }
-}
-
-impl PredictedErrors {
-    /// Computes `√(Σ_l |M l|²) = √(tr M C Mᵀ)`.
-    fn standard_deviation(&self) -> f64 {
-        self.displacements.as_flattened().iter().map(|v| v * v).sum::<f64>().sqrt()
     }
 }
 
@@ -146,6 +139,17 @@ pub fn named_as_one(spec: &Arc<Spec>) -> Arc<Spec> {
         CALIBRATION.clone_into(&mut Arc::make_mut(&mut named).sources[first].name);
     }
     named
+}
+
+/// Returns the indices of the random sources, without errors of a calibration, with the variances
+/// of their magnitudes.
+pub fn random_sources(description: &Description) -> Vec<(usize, f64)> {
+    let own = description.sources.iter().enumerate().filter(|(_, source)| !source.is_calibration());
+    let variance = |class: Class| match class {
+        Class::Random(distribution) => Some(1.0 / distribution.divisor_squared()),
+        _ => None,
+    };
+    own.filter_map(|(i, source)| Some((i, variance(source.class)?))).collect()
 }
 
 /// Returns true if the covariance contains the magnitude of a source.

@@ -28,7 +28,7 @@ pub struct Extrapolation {
 }
 
 /// Standard deviation of the tool point (√trace of its covariance) caused by the covariance of the
-/// identified errors, in the length unit.
+/// identified errors and by the random sources, in the length unit.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ToolPointDeviation {
     /// Root mean square over configurations within the ranges.
@@ -109,14 +109,28 @@ impl ToolPointDeviation {
         Some(Self { within: rms(&inside)?, extrapolated: rms(&beyond)?, extrapolated_max })
     }
 
+    /// Returns the root mean square deviation of the tool point at configurations; `None` if the
+    /// spec states no covariance.
+    pub fn at<'r>(
+        spec: &Spec,
+        manipulator: &dyn Manipulator,
+        configurations: impl Iterator<Item = (&'r [f64], &'r [f64])>,
+    ) -> Option<f64> {
+        let errors = CalibrationErrors::new(spec);
+        let prediction = Prediction::new(spec, manipulator, &errors, [0.0; 3])?;
+        let all: Vec<_> = configurations.collect();
+        let some = all.iter().step_by(all.len().div_ceil(SAMPLES).max(1));
+        rms(&prediction.deviations(some.map(|(q, u)| (q.to_vec(), u.to_vec()))))
+    }
+
     fn sentence(&self, spec: &Spec) -> String {
         let [within, outside, most] = [self.within, self.extrapolated, self.extrapolated_max]
             .map(|value| number::length(value, spec.length));
         let times = number::digits(self.extrapolated / self.within, 2);
         format!(
-            ". The covariance of these errors gives the tool point a standard deviation of \
-             {outside} there (at most {most}), {times} times the {within} within the ranges. \
-             Errors that the model does not have are not included"
+            ". The covariance of these errors and the random sources give the tool point a standard \
+             deviation of {outside} there (at most {most}), {times} times the {within} within the ranges. \
+             What the model does not have can be larger outside than where it was measured"
         )
     }
 }

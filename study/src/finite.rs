@@ -5,7 +5,7 @@
 
 use std::fmt::Display;
 
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
 use ciborium::Value;
 use serde::{Serialize, Serializer};
 

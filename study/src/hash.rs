@@ -3,8 +3,8 @@
 use std::io::{self, Read};
 use std::path::Path;
 
+use abbe_spec::Diagnostics;
 use abbe_spec::bounded::{Bounded, UnreadableFile};
-use abbe_spec::diagnostic::Diagnostics;
 use sha2::{Digest, Sha256};
 
 use crate::mistake;

@@ -7,17 +7,16 @@ use abbe::analysis::sampling;
 use abbe::{Class, Component, Description, Error, Manipulator, Pose, Quantity, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::degrees::check_angle_text;
-use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
+use abbe_spec::diagnostic::Span;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
-use abbe_spec::{Document, Spec, Variable};
+use abbe_spec::{Diagnostic, Diagnostics, Document, Spec, Variable};
 use serde::Serialize;
 
 use crate::finite::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
-use crate::number;
-use crate::open_loops;
+use crate::{number, open_loops};
 
 /// Job of `abbe jacobian`: evaluates `J_e` and `ε` at one configuration.
 #[derive(Clone)]

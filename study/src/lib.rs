@@ -66,7 +66,6 @@ pub mod workspace;
 
 mod archive;
 pub mod calibration;
-mod changed_text;
 mod changes;
 mod closing;
 pub mod dead_point;
@@ -84,11 +83,9 @@ mod residuals;
 mod run_record;
 mod table_paths;
 
-pub use abbe_spec::mistake;
-pub use abbe_spec::notes;
 pub use abbe_spec::notes::Notes;
-pub use changed_text::changed_text;
-pub use changes::{Changes, find_symbol};
+pub use abbe_spec::{mistake, notes};
+pub use changes::{Changes, changed_text, find_symbol};
 pub use extrapolation::{Extrapolation, ToolPointDeviation};
 pub use finite::finite;
 pub use iso230::IsoAxis;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use abbe_spec::diagnostic::{Diagnostic, Diagnostics, nearest_file};
-use abbe_spec::document::Document;
+use abbe_spec::diagnostic::nearest_file;
 use abbe_spec::option::NamedOption;
 use abbe_spec::value::find_name;
+use abbe_spec::{Diagnostic, Diagnostics, Document};
 
 /// Returns true if an argument is a path: the file exists, or the text looks like one.
 pub fn is_path(argument: &Path) -> bool {

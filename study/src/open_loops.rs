@@ -3,8 +3,7 @@
 
 use abbe::{Description, Error, Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::{Spec, mistake};
+use abbe_spec::{Diagnostics, Spec, mistake};
 
 use crate::closing::Closing;
 use crate::number;

@@ -1,9 +1,8 @@
 //! Spec templates: starter files with comments for common kinds of machines.
 
-use abbe_spec::check_name;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::edit::Edits;
 use abbe_spec::edit::write::quoted;
+use abbe_spec::{Diagnostics, check_name};
 
 use crate::options::Choices;
 

@@ -1,17 +1,18 @@
 //! The number of combinations of the generalized errors that measurements can identify.
+//!
+//! The parts of a chain with separate joints.
 
 mod in_parts;
-mod parts;
 
+pub use in_parts::identifiable_in_parts;
+
+use core::ops::Range;
+
+use abbe_core::{Component, Error, Manipulator, Pose, Quantity, twist};
+use abbe_kinematics::decompose::singular_values;
 use nalgebra::DMatrix;
 
 use super::{Configuration, Unevaluated, sampling};
-use abbe_core::twist;
-use abbe_core::{Component, Error, Manipulator, Pose, Quantity};
-use abbe_kinematics::decompose::singular_values;
-
-pub use in_parts::identifiable_in_parts;
-pub use parts::Parts;
 
 /// Relative singular value at or below which a value counts as zero.
 pub const RANK_THRESHOLD: f64 = 1e-9;
@@ -167,4 +168,56 @@ fn base_column(component: Component, pose: &Pose) -> [f64; 6] {
         column[axis] = 1.0;
     }
     column
+}
+
+/// Partition of the transforms `A_1 … A_n, T` into consecutive parts that share no joint variables.
+///
+/// Each transform is a part of its own if every joint moves one frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parts {
+    /// Ranges of `A_1 … A_n, T`, from 0, without gaps.
+    ranges: Vec<Range<usize>>,
+}
+
+impl Parts {
+    /// Partitions a chain, given the joint variables on which each of `A_1 … A_n` and `T` depends.
+    ///
+    /// ```
+    /// use abbe::analysis::Parts;
+    /// // q0 moves A_1, q1 moves A_2 and A_3, nothing moves the tool.
+    /// let parts = Parts::new(&[vec![0], vec![1], vec![2, 1], vec![]]);
+    /// assert_eq!((parts.count(), parts.longest()), (3, 2));
+    /// ```
+    pub fn new(depends: &[Vec<usize>]) -> Self {
+        let variables = depends.iter().flatten().max().map_or(0, |last| last + 1);
+        let mut last = vec![0; variables];
+        for (transform, used) in depends.iter().enumerate() {
+            used.iter().for_each(|variable| last[*variable] = transform);
+        }
+        let mut ranges = Vec::new();
+        let (mut first, mut end) = (0, 0);
+        for (transform, used) in depends.iter().enumerate() {
+            end = used.iter().map(|variable| last[*variable] + 1).fold(end.max(transform + 1), usize::max);
+            if end == transform + 1 {
+                ranges.push(first..end);
+                first = end;
+            }
+        }
+        Self { ranges }
+    }
+
+    /// Returns the number of parts.
+    pub fn count(&self) -> usize {
+        self.ranges.len()
+    }
+
+    /// Returns the number of transforms of the longest part.
+    pub fn longest(&self) -> usize {
+        self.ranges.iter().map(Range::len).max().unwrap_or(0)
+    }
+
+    /// Returns the number of transforms.
+    fn transforms(&self) -> usize {
+        self.ranges.last().map_or(0, |range| range.end)
+    }
 }

@@ -2,9 +2,8 @@
 
 use core::f64::consts::FRAC_1_PI;
 
-use super::principal::Principal;
 use super::quadrature::{integral, root};
-use super::vector::NormalVector;
+use super::vector::{NormalVector, Principal};
 
 /// Bound of the error of [`StudentVector::within`].
 const PROBABILITY_ERROR: f64 = 1e-9;

@@ -1,16 +1,17 @@
 //! Distribution of the error at one configuration: of the machine as built, or compensated.
+//!
+//! Correction of repeatable errors and tolerances by compensation.
 
+use abbe_core::{Class, Description};
+use abbe_kinematics::sampling::{norm, stream};
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 
-use super::correction::{Correction, Residual};
 use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
 use crate::normal::{NormalVector, ONE_SIDED_95, PROBABILITY_ERROR};
 use crate::parts::{longest, outer_sum};
 use crate::sweep::in_order;
 use crate::{Measurand, worst_case};
-use abbe_core::{Class, Description};
-use abbe_kinematics::sampling::{norm, stream};
 
 /// Coverage probability of an expanded uncertainty.
 pub const COVERAGE: f64 = 0.95;
@@ -301,4 +302,24 @@ impl ErrorsAt<'_> {
 /// Returns the sum of a vector and others.
 pub(super) fn sum_of(first: [f64; 3], others: impl IntoIterator<Item = [f64; 3]>) -> [f64; 3] {
     others.into_iter().fold(first, |sum, v| core::array::from_fn(|i| sum[i] + v[i]))
+}
+
+/// Error that remains of a repeatable source or a tolerance after compensation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Residual {
+    /// Share of its error: `f ‖r_k(q)‖` with unknown sign, or `f` times the value of a tolerance.
+    Share(f64),
+    /// Error of at most this norm, in the length unit, wherever the source has an error.
+    Bound(f64),
+}
+
+/// Correction of the repeatable errors and tolerances by compensation.
+#[derive(Clone, Copy, Debug)]
+pub struct Correction<'a> {
+    /// Residual of each source; those of random ones mean nothing. A share of 1 is not compensated:
+    /// the error keeps its value and sign.
+    pub residuals: &'a [Option<Residual>],
+    /// Norm of the position error that remains of all repeatable sources and tolerances together,
+    /// in the length unit, in place of their residuals.
+    pub together: Option<f64>,
 }

@@ -1,7 +1,6 @@
 //! Coverage at one configuration: the probability that a tolerance is met, and the uncertainty
 //! statement of the GUM (JCGM 100).
 
-mod correction;
 mod error_distribution;
 mod errors_at;
 mod machines;
@@ -9,8 +8,9 @@ mod statement;
 #[cfg(test)]
 mod tests;
 
-pub use correction::{Correction, Residual};
-pub use error_distribution::{COVERAGE, Compliance, DRAWS, ErrorDistribution, WorstCase};
+pub use error_distribution::{
+    COVERAGE, Compliance, Correction, DRAWS, ErrorDistribution, Residual, WorstCase,
+};
 pub use errors_at::{ErrorsAt, errors_at};
 pub use machines::{Machines, Yield};
 pub use statement::{Contribution, Statement, student_95};

@@ -11,16 +11,20 @@ pub enum Kind {
     Drift,
     /// Step to another level.
     Jump,
+    /// Step to another level and back.
+    Excursion,
 }
 
 /// Change of a level: `x = level + speed · max(0, t − since)`, or `x = level + jump` from `since`
-/// on.
+/// on, until it is back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Change {
     /// Kind of change.
     pub kind: Kind,
     /// Start of a drift; first number after a jump.
     pub since: f64,
+    /// First number after the return of an excursion.
+    pub until: Option<f64>,
     /// 95 % confidence interval of the time; an open lower end precedes the series.
     pub between: [Option<f64>; 2],
     /// Level before the change.
@@ -50,10 +54,11 @@ struct Fitted {
 const BETWEEN: usize = 4;
 
 impl Change {
-    /// Fits a drift and a jump to the numbers `x` at ascending times `t`, and returns the more
-    /// likely one; none for fewer than six numbers, or if all are equal.
+    /// Fits a drift, a jump and an excursion to the numbers `x` at ascending times `t`, and returns
+    /// the most likely one; none for fewer than six numbers, or if all are equal.
     ///
-    /// Least squares over all candidate times. The confidence interval has the times whose sum of
+    /// Least squares over all candidate times. An excursion has a time more: its likelihood must be
+    /// n times as large. The confidence interval has the times whose sum of
     /// squares exceeds the minimum by no more than `F_{1,n−3}` (95 %) times the variance.
     pub fn fit(t: &[f64], x: &[f64]) -> Option<Self> {
         let n = t.len().min(x.len());
@@ -66,29 +71,35 @@ impl Change {
         let (drifts, jumps) = (drifts(t, x), jumps(t, x));
         let least = |all: &[Fitted]| all.iter().copied().min_by(|a, b| a.squares.total_cmp(&b.squares));
         let (drift, jump) = (least(&drifts)?, least(&jumps)?);
-        let (kind, best, all) = match drift.squares <= jump.squares {
-            true => (Kind::Drift, drift, drifts),
-            false => (Kind::Jump, jump, jumps),
+        let (mut kind, mut best, mut all, mut until) = match drift.squares <= jump.squares {
+            true => (Kind::Drift, drift, drifts, None),
+            false => (Kind::Jump, jump, jumps, None),
         };
+        if let Some((back, excursion)) = excursion(t, x, mean)
+            && best.squares / excursion.squares.max(1e-24 * without) > f64::powf(n as f64, 2.0 / n as f64)
+        {
+            (kind, best, all, until) = (Kind::Excursion, excursion, vec![excursion], Some(back));
+        }
         if best.squares.is_nan() || without <= 0.0 {
             return None;
         }
-        let freedom = n - 3;
+        let freedom = n - 3 - usize::from(until.is_some());
         let variance = best.squares / freedom as f64;
         let bound = best.squares + variance * student_factor(0.95, freedom as f64).powi(2);
         let within = |fitted: &&Fitted| fitted.squares <= bound;
         let first = all.iter().find(within).map_or(best.at, |fitted| fitted.at);
         let last = all.iter().rev().find(within).map_or(best.at, |fitted| fitted.at);
-        let earliest = all.first().is_none_or(|fitted| first > fitted.at);
+        let earliest = until.is_some() || all.first().is_none_or(|fitted| first > fitted.at);
         // A jump occurs after the preceding number.
         let first = match kind {
             Kind::Drift => first,
-            Kind::Jump => t.iter().copied().rev().find(|t| *t < first).unwrap_or(first),
+            _ => t.iter().copied().rev().find(|t| *t < first).unwrap_or(first),
         };
-        let covariance = covariance(kind, &best, t, variance);
+        let covariance = covariance(kind, &best, until, t, variance);
         Some(Self {
             kind,
             since: best.at,
+            until,
             between: [earliest.then_some(first), Some(last)],
             level: best.level,
             size: best.size,
@@ -100,10 +111,10 @@ impl Change {
     }
 
     /// Returns the time at which a drift reaches a distance from the level, and its standard
-    /// deviation; none for a jump.
+    /// deviation; none for other changes.
     pub fn reaches(&self, distance: f64) -> Option<(f64, f64)> {
         let speed = self.size.abs();
-        if self.kind == Kind::Jump || speed <= 0.0 {
+        if self.kind != Kind::Drift || speed <= 0.0 {
             return None;
         }
         // t = since + d/|v|: ∂t/∂v = −d/(v |v|).
@@ -117,8 +128,8 @@ impl Change {
     pub fn moved(&self, at: f64) -> f64 {
         match self.kind {
             Kind::Drift => self.size * (at - self.since).max(0.0),
-            Kind::Jump if at >= self.since => self.size,
-            Kind::Jump => 0.0,
+            _ if at >= self.since && self.until.is_none_or(|until| at < until) => self.size,
+            _ => 0.0,
         }
     }
 }
@@ -154,14 +165,39 @@ fn jumps(t: &[f64], x: &[f64]) -> Vec<Fitted> {
     (1..t.len()).map(|first| fitted(t[first], x, |i| f64::from(u8::from(i >= first)))).collect()
 }
 
+/// Fits the excursion that explains most, and returns the time of its return with it.
+///
+/// With the mean x̄ of all n numbers, m numbers of sum s elsewhere explain
+/// `(s − m x̄)² / (m (1 − m/n))`.
+fn excursion(t: &[f64], x: &[f64], mean: f64) -> Option<(f64, Fitted)> {
+    let n = x.len();
+    let mut explained: Option<(f64, usize, usize)> = None;
+    for first in 1..n - 1 {
+        let mut sum = 0.0;
+        for (end, x) in (first + 1..n).zip(&x[first..]) {
+            sum += x - mean;
+            let m = (end - first) as f64;
+            let here = sum * sum / (m * (1.0 - m / n as f64));
+            if explained.is_none_or(|(most, ..)| here > most) {
+                explained = Some((here, first, end));
+            }
+        }
+    }
+    let (_, first, end) = explained?;
+    let is_away = |i: usize| f64::from(u8::from((first..end).contains(&i)));
+    Some((t[end], fitted(t[first], x, is_away)))
+}
+
 /// Returns the covariance of time and size, from the derivatives of `level + size · g` with respect
 /// to all three.
-fn covariance(kind: Kind, best: &Fitted, t: &[f64], variance: f64) -> [[f64; 2]; 2] {
+fn covariance(kind: Kind, best: &Fitted, until: Option<f64>, t: &[f64], variance: f64) -> [[f64; 2]; 2] {
     let mut normal = Matrix3::<f64>::zeros();
     for t in t {
         let row = match kind {
             Kind::Drift if *t > best.at => Vector3::new(1.0, -best.size, t - best.at),
-            Kind::Jump if *t >= best.at => Vector3::new(1.0, 0.0, 1.0),
+            Kind::Jump | Kind::Excursion if *t >= best.at && until.is_none_or(|until| *t < until) => {
+                Vector3::new(1.0, 0.0, 1.0)
+            }
             _ => Vector3::new(1.0, 0.0, 0.0),
         };
         normal += row * row.transpose();
@@ -169,7 +205,7 @@ fn covariance(kind: Kind, best: &Fitted, t: &[f64], variance: f64) -> [[f64; 2];
     // A jump has no derivative by its time, and a drift from the first number on does not determine
     // its level.
     let from_the_first = t.iter().filter(|t| **t <= best.at).count() < 2;
-    if kind == Kind::Jump || from_the_first {
+    if kind != Kind::Drift || from_the_first {
         normal[(1, 1)] = 1e300;
         normal[(0, 1)] = 0.0;
         normal[(1, 0)] = 0.0;

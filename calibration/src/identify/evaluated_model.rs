@@ -4,7 +4,7 @@
 use super::columns::{Displaced, Frame};
 use super::{Camera, Failure, Model, Observation, Role, Unknown};
 use abbe_analysis::sampling::vectors::cross;
-use abbe_core::{Component, Error, Pose, Quantity, drawn_pose, twist};
+use abbe_core::{Component, Error, Pose, Quantity, drawn_pose, tool_pose, twist};
 
 /// Model at values of its unknowns, with reusable memory for the evaluation of configurations.
 #[derive(Clone)]
@@ -14,6 +14,10 @@ pub struct EvaluatedModel<'m> {
     pub(super) x: Vec<f64>,
     transforms: Vec<Pose>,
     pub(super) errors: Vec<[f64; 6]>,
+    /// Errors by the known sources, to first order.
+    known: Vec<[f64; 6]>,
+    /// Magnitudes of the known sources alone.
+    known_magnitudes: Vec<f64>,
     pub(super) effects: Vec<f64>,
     /// Factor of each source, for machines with loops.
     magnitudes: Vec<f64>,
@@ -41,6 +45,15 @@ pub struct EvaluatedModel<'m> {
     pub(super) previous: Option<Box<Self>>,
 }
 
+/// Sum of the rotations by known sources, in rad, below which terms of second order do not matter:
+/// they are less than a tenth of a micrometre per metre.
+const SMALL: f64 = 4e-4;
+
+/// Returns the magnitude of a source if it is known.
+fn known(role: &Role) -> f64 {
+    f64::from(u8::from(*role == Role::Known))
+}
+
 impl Model<'_> {
     /// Returns the model at values of its unknowns.
     pub fn at(&self, x: &[f64]) -> EvaluatedModel<'_> {
@@ -51,6 +64,8 @@ impl Model<'_> {
             x: x.to_vec(),
             transforms: vec![Pose::IDENTITY; frames + 1],
             errors: vec![[0.0; 6]; frames],
+            known: vec![[0.0; 6]; frames],
+            known_magnitudes: self.roles.iter().map(known).collect(),
             effects: vec![0.0; description.effects.len()],
             magnitudes: vec![0.0; description.sources.len()],
             frames: Vec::with_capacity(frames + 2),
@@ -115,8 +130,7 @@ impl EvaluatedModel<'_> {
         for (zero, reading) in self.zeros.iter_mut().zip(&model.observables) {
             *zero = reading.zero;
         }
-        let known = |role: &Role| f64::from(u8::from(*role == Role::Known));
-        self.magnitudes.iter_mut().zip(&model.roles).for_each(|(one, role)| *one = known(role));
+        self.magnitudes.copy_from_slice(&self.known_magnitudes);
         let description = model.manipulator.description();
         if model.roles.iter().any(|role| *role != Role::Off) {
             model.manipulator.effects(&observation.q, &model.s, &observation.u, &mut self.effects)?;
@@ -126,6 +140,7 @@ impl EvaluatedModel<'_> {
                 }
             }
         }
+        self.known.copy_from_slice(&self.errors);
         for (unknown, value) in model.unknowns.iter().zip(&self.x) {
             match *unknown {
                 Unknown::Base(station, component) if station == self.station => {
@@ -196,7 +211,7 @@ impl EvaluatedModel<'_> {
     /// Appends the frames, each behind the one that it hangs on, and returns the pose of the tool
     /// without its mounting.
     fn branches(&mut self, observation: &Observation) -> Result<Pose, Error> {
-        let Self { model, displaced, frames, transforms, errors, .. } = self;
+        let Self { model, displaced, frames, transforms, errors, known, known_magnitudes, .. } = self;
         let description = model.manipulator.description();
         model.manipulator.transforms(&observation.q, &model.s, transforms)?;
         for (i, errors) in errors.iter().enumerate() {
@@ -206,7 +221,18 @@ impl EvaluatedModel<'_> {
             frames.push(if description.carries_tool(i) { frame } else { Frame::at_rest(frame.after) });
         }
         let carrier = description.tool_frame().map_or(0, |frame| frame + 1);
-        Ok(frames[carrier].after.then(&transforms[errors.len()]))
+        let tool = frames[carrier].after.then(&transforms[errors.len()]);
+        let turns = known.iter().flat_map(|[_, _, _, turns @ ..]| turns).map(|turn| turn.abs()).sum::<f64>();
+        if turns < SMALL {
+            return Ok(tool);
+        }
+        // Effects of sources are errors of frames to first order only. What is known moves the tool
+        // exactly, as the sources themselves do.
+        let Observation { q, u, .. } = observation;
+        let exact = drawn_pose(model.manipulator, q, &model.s, u, known_magnitudes)?;
+        let first_order = tool_pose(description, transforms, known);
+        let base = frames[0].after;
+        Ok(base.then(&exact).then(&first_order.inverse()).then(&base.inverse()).then(&tool))
     }
 
     /// Closes the loops, and returns the pose of the tool without its mounting. The derivatives are

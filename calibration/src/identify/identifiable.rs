@@ -33,8 +33,8 @@ pub struct Identifiable {
     /// Number of identifiable combinations of the errors of base and frames, if nothing of the tool
     /// is unknown.
     pub errors: usize,
-    /// Indices of the unknowns that represent these combinations, ascending. All others are fixed
-    /// at zero.
+    /// Indices of the unknowns that represent these combinations, ascending; of a fit with priors,
+    /// all that are fitted. All others are fixed at zero.
     pub kept: Vec<usize>,
     /// Unknowns fixed at zero, each with its equivalent:
     /// `column = Σ factor × column of a kept unknown`.

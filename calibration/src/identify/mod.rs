@@ -12,7 +12,8 @@
 //!
 //! ```
 //! # use abbe::*;
-//! use abbe::identify::{Failure, Measurement, Model, Observation, Options, Uncertainty, Unknown, fit};
+//! use abbe::identify::{Failure, Measurement, Model, Observation, Options, Uncertainty, Unknown,
+//! fit};
 //! # struct Arm;
 //! # impl Manipulator for Arm {
 //! #     fn description(&self) -> &Description {
@@ -135,16 +136,19 @@ pub use instrument::{
     KnownDistance, Observable, Reference, SizeInformation,
 };
 pub use joints_at_values::joints_at_values;
+pub use linearize::Prior;
 pub use model::{Model, ReferenceLength};
 pub use observation::{Approach, Measurement, Observation, Uncertainty};
 pub use options::Options;
-pub use profile::{Profile, ProfileBasis, ProfileData, ProfileJoint, Profiles, fit_profiles};
+pub use profile::{Profile, ProfileBasis, ProfileJoint, Profiles, fit_profiles};
 pub use registration::{Registration, register, register_pairs};
 pub use robust::{Loss, robust_scale};
 pub use select::{Selection, select};
 pub use simulate::{Chance, Simulated, simulate};
 pub use station::Station;
-pub use statistics::{FTest, Observability, deviation_beyond, f_test, student_beyond, student_factor};
+pub use statistics::{
+    FTest, Observability, deviation_beyond, f_beyond, f_test, student_beyond, student_factor,
+};
 pub use tool_points::ToolPoints;
 pub use unknown::{Role, Unknown};
 pub use values::{Inputs, Points, Values};

@@ -20,21 +20,12 @@ pub struct Options {
     pub priors: Vec<Option<f64>>,
     /// Indices of unknowns whose priors are known up to a common factor, which the data choose.
     pub scaled: Vec<usize>,
-    /// Bounds, by index of the unknown.
-    pub bounds: Vec<Option<[f64; 2]>>,
     /// Largest number of iterations.
     pub steps: usize,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self {
-            at: Vec::new(),
-            loss: Loss::Squares,
-            priors: Vec::new(),
-            scaled: Vec::new(),
-            bounds: Vec::new(),
-            steps: 100,
-        }
+        Self { at: Vec::new(), loss: Loss::Squares, priors: Vec::new(), scaled: Vec::new(), steps: 100 }
     }
 }

@@ -13,7 +13,7 @@ use super::fit::REJECTED;
 use super::robust::robust_scale_after;
 use super::solver::{Residuals, Solver};
 use super::statistics::f_beyond;
-use super::{Configurations, Failure, Folds, Loss, Observation};
+use super::{Configurations, Failure, Folds, Loss, Observation, Options};
 
 /// Probability that any good row is rejected.
 const CHANCE: f64 = 0.01;
@@ -28,10 +28,23 @@ const ROUNDS: [usize; 2] = [20, 40];
 const TRIES: usize = 8;
 
 impl Solver<'_> {
+    /// Rejects outliers if the loss does, and iterates to convergence. Returns the covariance if it
+    /// was computed on the way.
+    pub(super) fn solve(&mut self, options: &Options) -> Result<Option<Known>, Failure> {
+        let known = match options.loss {
+            Loss::Squares => None,
+            loss => self.reject_outliers(loss, options.steps)?,
+        };
+        match self.steps_at_most(options.steps)? {
+            true => Ok(known),
+            false => Err(Failure::NotConverged { steps: self.steps }),
+        }
+    }
+
     /// Sets the weights to 0 for outliers and 1 for all others.
     ///
     /// `steps` limits each fit. Returns the covariance if it was computed on the way.
-    pub(super) fn reject_outliers(&mut self, loss: Loss, steps: usize) -> Result<Option<Known>, Failure> {
+    fn reject_outliers(&mut self, loss: Loss, steps: usize) -> Result<Option<Known>, Failure> {
         let places = self.places_by_number();
         if self.data.len() > 2 * PART {
             let folds = Folds::new(self.data, self.data.len() / PART);

@@ -12,6 +12,7 @@ use abbe_core::{Component, Pose};
 use nalgebra::DMatrix;
 
 use super::identifiable::{Columns, by_preference};
+use super::linearize::Prior;
 use super::solver::Solver;
 use super::triangle::Problem;
 use super::{Failure, Measurement, Model, Observation, Station, Uncertainty, Unknown, Values};
@@ -98,17 +99,19 @@ impl Basis {
         Ok(Self { kept, redundant, root })
     }
 
-    /// Returns W with the standard deviations of these unknowns multiplied by a scale.
-    pub(super) fn rows(&self, scaled: &[usize], scale: f64) -> DMatrix<f64> {
+    /// Returns W, and rows E of its scores with `EᵀE = P Σ P`, with the standard deviations of the
+    /// unknowns multiplied by a factor; those by which the fit weighs them by one more, which is
+    /// not that of Σ.
+    pub(super) fn rows(&self, factor: impl Fn(usize) -> f64, weighs: impl Fn(usize) -> f64) -> Prior {
         let (mut root, count) = (self.root.clone(), self.kept.len());
-        let all = self.kept.iter().chain(self.redundant.iter().map(|(k, _)| k));
-        root.row_iter_mut()
-            .zip(all)
-            .filter(|(_, k)| scaled.contains(k))
-            .for_each(|(mut row, _)| row *= scale);
-        let upper = root.qr().unpack_r();
+        let all = || self.kept.iter().chain(self.redundant.iter().map(|(k, _)| k));
+        root.row_iter_mut().zip(all()).for_each(|(mut row, k)| row *= factor(*k));
+        let mut weighed = root.clone();
+        weighed.row_iter_mut().zip(all()).for_each(|(mut row, k)| row *= weighs(*k));
+        let upper = weighed.qr().unpack_r();
         let rows = upper.transpose().solve_lower_triangular(&DMatrix::identity(count, count));
-        rows.unwrap_or_else(|| DMatrix::zeros(0, count))
+        let rows = rows.unwrap_or_else(|| DMatrix::zeros(0, count));
+        Prior { scores: root * rows.tr_mul(&rows), rows }
     }
 }
 
@@ -178,15 +181,24 @@ fn poses(errors: &Model, model: &Model, data: &[Observation]) -> Result<(Columns
     Ok((Columns::of_rows(&seen, &rows, &vec![0.0; seen.unknowns.len()])?, count))
 }
 
-/// Standard deviation of `ln s` of the scale s before the data.
+/// Standard deviation d of `ln s` of the scale s before the data; its mean is −d², so that s² is 1
+/// in the mean.
 const SPREAD: f64 = 1.5;
+
+/// Largest error that is expected, in prior standard deviations: a few errors can be much larger
+/// than all others.
+const LARGEST: f64 = 2.0;
+
+/// Standard deviations from zero from which an error is certain.
+const CERTAIN: f64 = 5.0;
 
 /// Largest `|ln s|`, and the number of scales at which the likelihood is evaluated.
 const SCALES: (f64, usize) = (6.0, 61);
 
 impl Solver<'_> {
-    /// Chooses the scale s of the prior of these unknowns by the data: the mean of `ln s` under
-    /// the likelihood and a log-normal prior about 1.
+    /// Chooses the scale s of the prior of these unknowns by the data: the root mean square of s,
+    /// whose square scales the variance, under the likelihood and a log-normal prior, or half of
+    /// the largest error that is certain.
     ///
     /// With `J x = y` in units of this noise, `P = WᵀW` for the scale s, and `N = JᵀJ`,
     /// `−2 ln p(y | s) = ln |N + P| − ln |P| + min_x (‖J x − y‖² + ‖W x‖²)`.
@@ -195,7 +207,7 @@ impl Solver<'_> {
         let j = self.data_alone.columns(0, p) / noise;
         let y = (self.data_alone.column(p) / noise) + &j * &self.x;
         let likelihood = |log: f64| {
-            let w = basis.rows(scaled, log.exp());
+            let w = basis.rows(|k| if scaled.contains(&k) { log.exp() } else { 1.0 }, |_| 1.0).rows;
             let mut stack = DMatrix::zeros(j.nrows() + w.nrows(), p + 1);
             stack.view_mut((0, 0), j.shape()).copy_from(&j);
             stack.view_mut((0, p), (y.len(), 1)).copy_from(&y);
@@ -203,7 +215,7 @@ impl Solver<'_> {
             let Problem { a, b } = Problem::from_triangle(&stack, &(0..p).collect::<Vec<_>>());
             let logs = |of: &DMatrix<f64>| (0..p).map(|i| of[(i, i)].abs().ln()).sum::<f64>();
             let left = b.rows(p.min(b.len()), b.len().saturating_sub(p)).norm_squared();
-            logs(&w) - logs(&a) - 0.5 * (left + (log / SPREAD).powi(2))
+            logs(&w) - logs(&a) - 0.5 * (left + (log / SPREAD + SPREAD).powi(2))
         };
         let (end, count) = SCALES;
         let logs: Vec<f64> = (0..count).map(|i| end * (2.0 * i as f64 / (count - 1) as f64 - 1.0)).collect();
@@ -213,8 +225,20 @@ impl Solver<'_> {
         let (sum, mean) = logs
             .iter()
             .zip(weights)
-            .fold((0.0, 0.0), |(sum, mean), (log, weight)| (sum + weight, mean + weight * log));
-        let scale: f64 = (mean / sum).exp();
-        if scale.is_finite() { scale } else { 1.0 }
+            .fold((0.0, 0.0), |(sum, mean), (log, weight)| (sum + weight, mean + weight * (2.0 * log).exp()));
+        let scale = f64::sqrt(mean / sum);
+        if scale.is_finite() { scale.max(self.largest(basis, scaled, noise) / LARGEST) } else { 1.0 }
+    }
+
+    /// Returns the largest of these unknowns that is certain, in its prior standard deviations.
+    fn largest(&self, basis: &Basis, scaled: &[usize], noise: f64) -> f64 {
+        let Some(half) = self.half() else { return 0.0 };
+        let size = |i: usize| {
+            let x = self.x[i].abs();
+            let is_certain = x > CERTAIN * noise * half.row(i).norm();
+            if is_certain { x / basis.root.column(i).norm() } else { 0.0 }
+        };
+        let own = (0..self.x.len()).filter(|i| scaled.contains(&basis.kept[*i]));
+        own.map(size).fold(0.0, f64::max)
     }
 }

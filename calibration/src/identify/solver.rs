@@ -4,18 +4,16 @@ use nalgebra::{DMatrix, DVector};
 
 use super::blocks::by_blocks;
 use super::evaluated_model::EvaluatedModel;
-use super::linearize::{linearize, with_priors};
+use super::linearize::{Prior, linearize, with_priors};
 use super::triangle::Problem;
-use super::{Failure, Loss, Model, Observation, Options};
+use super::{Failure, Loss, Model, Observation};
 
 /// State of a fit.
 #[derive(Clone)]
 pub(super) struct Solver<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) data: &'a [Observation],
-    /// Rows of the prior.
-    pub(super) prior: DMatrix<f64>,
-    bounds: Vec<Option<[f64; 2]>>,
+    pub(super) prior: Prior,
     pub(super) x: DVector<f64>,
     pub(super) weights: Vec<f64>,
     /// Triangle of the data without priors.
@@ -28,19 +26,12 @@ pub(super) struct Solver<'a> {
 }
 
 impl<'a> Solver<'a> {
-    pub(super) fn new(
-        model: &'a Model<'a>,
-        data: &'a [Observation],
-        options: &Options,
-        kept: &[usize],
-        (start, prior): (Vec<f64>, DMatrix<f64>),
-    ) -> Self {
+    pub(super) fn new(model: &'a Model<'a>, data: &'a [Observation], start: Vec<f64>, prior: Prior) -> Self {
         let p = model.unknowns.len();
         Self {
             model,
             data,
             prior,
-            bounds: kept.iter().map(|k| options.bounds.get(*k).copied().flatten()).collect(),
             x: DVector::from_vec(start),
             weights: vec![1.0; data.len()],
             data_alone: DMatrix::zeros(0, p + 1),
@@ -63,7 +54,7 @@ impl<'a> Solver<'a> {
     fn linearize(&self, x: &DVector<f64>) -> Result<(DMatrix<f64>, Problem, f64), Failure> {
         let triangle = linearize(self.model, self.data, x.as_slice(), Some(&self.weights))?;
         let data_alone = triangle.clone().finish();
-        let problem = with_priors(triangle, &self.prior, x.as_slice());
+        let problem = with_priors(triangle, &self.prior.rows, x.as_slice());
         let cost = problem.b.norm_squared();
         Ok((data_alone, problem, cost))
     }
@@ -73,11 +64,11 @@ impl<'a> Solver<'a> {
     }
 
     pub(super) fn cost_of_priors(&self, x: &DVector<f64>) -> f64 {
-        (&self.prior * x).norm_squared()
+        (&self.prior.rows * x).norm_squared()
     }
 
-    /// Replaces the rows of the prior.
-    pub(super) fn set_prior(&mut self, prior: DMatrix<f64>) {
+    /// Replaces the prior.
+    pub(super) fn set_prior(&mut self, prior: Prior) {
         (self.prior, self.linearized) = (prior, false);
     }
 
@@ -117,7 +108,7 @@ impl<'a> Solver<'a> {
                 continue;
             };
             let bent = if curved { Failure::unless_open(self.accelerated(&step, damping))? } else { None };
-            let trial = self.within(&self.x + bent.unwrap_or(step));
+            let trial = &self.x + bent.unwrap_or(step);
             let share = (&trial - &self.x).component_mul(&self.scale()).norm();
             // Far below the effect of a single measurement.
             let small = share < 1e-7 * (1.0 + self.cost.sqrt());
@@ -143,18 +134,9 @@ impl<'a> Solver<'a> {
         Ok(false)
     }
 
-    /// Returns the end of a damped step within the bounds; none if the problem is singular.
+    /// Returns the end of a damped step; none if the problem is singular.
     pub(super) fn trial(&self, damping: f64) -> Option<DVector<f64>> {
-        Some(self.within(&self.x + self.problem.solve(damping)?))
-    }
-
-    fn within(&self, mut x: DVector<f64>) -> DVector<f64> {
-        for (value, bounds) in x.iter_mut().zip(&self.bounds) {
-            if let Some([lower, upper]) = bounds {
-                *value = value.clamp(*lower, *upper);
-            }
-        }
-        x
+        Some(&self.x + self.problem.solve(damping)?)
     }
 
     pub(super) fn scale(&self) -> DVector<f64> {

@@ -88,7 +88,7 @@ pub fn deviation_beyond(sigma: f64, freedom: f64) -> f64 {
 }
 
 /// Returns the upper tail probability of F with `k` and `n` degrees of freedom.
-pub(super) fn f_beyond(f: f64, k: f64, n: f64) -> f64 {
+pub fn f_beyond(f: f64, k: f64, n: f64) -> f64 {
     incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f.max(0.0)))
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use abbe::VariableKind;
 use abbe::analysis::{Configuration, Figures, Row};
 use abbe_spec::Spec;
-use abbe_spec::cell::harmless;
+use abbe_spec::csv_writer::harmless;
 use abbe_study::analyze::{Analyze, MonteCarloReport, Report, unreachable_reason};
 use abbe_study::number::class;
 use abbe_study::study_file::{CombinedFigure, Metric};

@@ -1,9 +1,7 @@
 //! Equalities between nodes with different operations. A program computes the cheapest member of a
 //! class.
 
-use super::arena::Graph;
-use super::classes::{Classes, Signed};
-use super::node::{Node, Op};
+use super::arena::{Classes, Graph, Node, Op, Signed};
 use super::vector::Vector;
 
 impl Graph {

@@ -6,19 +6,15 @@
 
 mod arena;
 mod arithmetic;
-mod classes;
 mod diff;
 mod equal;
 mod evaluate;
 mod functions;
 mod lower;
-mod node;
 mod substitute;
 mod vector;
 
-pub use arena::Graph;
-pub use classes::Signed;
+pub use arena::{Graph, Node, Op, Signed};
 pub(crate) use lower::in_programs;
-pub use node::{Node, Op};
 pub(crate) use vector::transposed;
 pub use vector::{Frame, Vector};

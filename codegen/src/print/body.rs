@@ -3,10 +3,9 @@
 //! A step without a name that is used once is written inline, as long as the expression stays
 //! narrow. The order of the arithmetic, and so every bit of the result, stays the same.
 
-use super::expression::{Binding, Expression, Syntax, Value};
+use super::expression::{Binding, Expression, Statement, Syntax, Value};
 use super::layout::{NARROW, width};
 use super::names::Names;
-use super::statement::Statement;
 use crate::program::{Action, Operand, Program, Step};
 
 /// Returns the statements of a program and its outputs.

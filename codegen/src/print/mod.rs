@@ -1,11 +1,11 @@
 //! Prints routines as source text: formatted, documented and deterministic.
 //!
-//! `statements` converts a routine to language-independent statements (`statement`); `body` does so
+//! `statements` converts a routine to language-independent statements; `body` does so
 //! for a program, with an `expression` for each step that needs no name and `names` for the rest.
-//! `layout` lays out lines, `flat` indexes flat arrays, `lists` has the tables of loops. A language
-//! with flat arrays implements the trait of `procedure`, by which `procedure` prints the procedures
-//! and `routine` the statements; `invocation` has the calls of both. `header` and `text` print
-//! documentation, `records` the description of a manipulator. Each language is a folder with its
+//! `layout` lays out lines, `flat` indexes flat arrays, `lists` has the tables of loops and the
+//! description of a manipulator. A language with flat arrays implements the trait of `procedure`,
+//! by which `procedure` prints the procedures and `routine` the statements. `header` prints
+//! documentation. Each language is a folder with its
 //! operators, numbers, statements, functions, corrected commands and the surrounding module.
 
 mod body;
@@ -14,7 +14,6 @@ mod expression;
 mod flat;
 mod fmu;
 mod header;
-mod invocation;
 mod javascript;
 mod layout;
 mod lists;
@@ -22,18 +21,14 @@ mod matlab;
 mod names;
 mod procedure;
 mod python;
-mod records;
 mod routine;
 pub mod rust;
-mod source_file;
-mod statement;
 mod statements;
 mod structured_text;
-mod text;
 
 pub use c::Real;
 pub use fmu::Fmi;
-pub use source_file::SourceFile;
+pub use layout::SourceFile;
 
 use abbe_spec::Spec;
 

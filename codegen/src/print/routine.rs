@@ -1,9 +1,8 @@
 //! Prints the statements of routines: what is the same in every language with flat arrays.
 
-use super::expression::Value;
+use super::expression::{Statement, Value};
 use super::flat::{Flat, Results};
 use super::procedure::{Invocation, Printer};
-use super::statement::Statement;
 use crate::program::{ArrayRows, Role, Sums};
 
 /// Prints statements, and returns the margin if it is returned.

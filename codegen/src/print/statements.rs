@@ -8,10 +8,9 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
 use super::body::body;
-use super::expression::{Syntax, Value};
+use super::expression::{Statement, Syntax, Value};
 use super::flat::Flat;
 use super::names::Names;
-use super::statement::Statement;
 use crate::program::{ArrayRows, Block, Operand, Program, Role, Routine, Routines, Row, Stage};
 
 /// The statements of a routine.

@@ -4,23 +4,19 @@
 //! count loops by fixed ranges and index arrays by sums of loop counters, so that a language whose
 //! numbers are arrays of configurations can print every branch as a choice by a mask. `value` has
 //! expressions, `build` the builder that descriptions are written with, `lower` replaces sums by
-//! loops, `scalars` describes functions of numbers, `look_up` lookups of tables, and `compensated`
-//! the corrected command.
+//! loops, `look_up` describes functions of numbers and lookups of tables, and `compensated` the
+//! corrected command.
 
 mod build;
 mod compensated;
-mod index;
 mod look_up;
 mod lower;
-mod scalars;
 mod value;
 
 pub use build::Body;
 pub use compensated::{Precision, compensated};
-pub use index::{Counter, Index};
-pub use look_up::look_up;
-pub use scalars::{clamped, least_and_greatest, side, sign};
-pub use value::{Binary, Condition, Unary, Value};
+pub use look_up::{clamped, least_and_greatest, look_up, side, sign};
+pub use value::{Binary, Condition, Counter, Index, Unary, Value};
 
 use abbe_core::compensator::Status;
 

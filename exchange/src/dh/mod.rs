@@ -5,10 +5,9 @@
 
 mod read;
 mod table;
-mod units;
 mod write;
 
 pub use self::read::read;
 pub(crate) use self::table::DhTable;
-pub use self::units::Units;
 pub use self::write::write;
+pub use table::Units;

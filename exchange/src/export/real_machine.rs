@@ -12,8 +12,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::expr::Dimension;
 use abbe_spec::{DhConvention, Diagnostics, Spec, mistake, number};
 
-use super::chain_errors::{ChainErrors, Link, about_x, about_z};
-use super::error_model::{Cause, ErrorModel};
+use super::error_model::{Cause, ChainErrors, ErrorModel, Link, about_x, about_z};
 use super::pose_difference::PoseDifference;
 
 /// Relative change of an error below which it is rounding.

@@ -3,9 +3,8 @@
 use std::fmt::Display;
 
 use abbe::{Error, Pose};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::mistake;
 use abbe_spec::number::digits;
+use abbe_spec::{Diagnostics, mistake};
 use serde::Serialize;
 
 use super::pose_difference::PoseDifference;

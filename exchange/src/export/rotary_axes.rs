@@ -9,7 +9,7 @@ use abbe::{Error, Manipulator, Orientation, Pose, deviation};
 use abbe_spec::number::digits;
 use serde::Serialize;
 
-use super::chain_errors::{ChainErrors, Link, product};
+use super::error_model::{ChainErrors, Link, product};
 use super::pose_difference::PoseDifference;
 use super::real_machine::RealMachine;
 use super::slides::Axes;

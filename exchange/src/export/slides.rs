@@ -4,11 +4,10 @@
 //! The workpiece is at rest or on rotary axes, which are at 0 where errors of slides are evaluated.
 
 use abbe::{Error, Manipulator, Orientation, Pose, VariableKind, deviation, real_pose};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::mistake;
 use abbe_spec::option::TO_TABLE;
+use abbe_spec::{Diagnostics, mistake};
 
-use super::chain_errors::{ChainErrors, product};
+use super::error_model::{ChainErrors, product};
 use super::real_machine::RealMachine;
 use abbe::analysis::sampling::vectors::{add, cross, subtract};
 

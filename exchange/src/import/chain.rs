@@ -1,9 +1,16 @@
 //! Serial chain of a file in another format: everything that a spec states about it.
+//!
+//! Constant transforms before and after the motion of a joint.
+//!
+//! Multiples of 45° that a file has with too few digits.
+
+use std::f64::consts::FRAC_PI_4;
 
 use abbe::LengthUnit;
-use nalgebra::Isometry3;
+use abbe_spec::option::ROUND_ANGLES;
+use abbe_spec::{DhConvention, Notes};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::geometry::Geometry;
 use crate::placement::{Placement, joint_motion};
 
 /// Serial chain from the base to the tool point.
@@ -100,5 +107,124 @@ impl Chain {
         let frames = || self.frames.iter().enumerate().filter(|(_, frame)| moved(frame));
         let at_joint = frames().find(|(_, frame)| frame.joint == *joint);
         at_joint.or_else(|| frames().next()).map_or(0, |(i, _)| i)
+    }
+}
+
+/// Constant part of a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Geometry {
+    /// Placement as in URDF; the joint moves after it.
+    Origin(Placement),
+    /// Denavit-Hartenberg numbers; the motion, which adds to `theta` or `d`, is not part of them.
+    DenavitHartenberg(DhRow),
+}
+
+/// Denavit-Hartenberg numbers of one row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DhRow {
+    pub(crate) convention: DhConvention,
+    pub(crate) theta: f64,
+    pub(crate) d: f64,
+    pub(crate) a: f64,
+    pub(crate) alpha: f64,
+}
+
+impl DhRow {
+    /// Returns `Rz(theta) Tz(d)`, which commutes with every motion about or along z.
+    fn z(&self) -> Isometry3<f64> {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.theta);
+        Isometry3::from_parts(Translation3::new(0.0, 0.0, self.d), turn)
+    }
+
+    /// Returns `Tx(a) Rx(alpha)`; the two factors commute.
+    fn x(&self) -> Isometry3<f64> {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), self.alpha);
+        Isometry3::from_parts(Translation3::new(self.a, 0.0, 0.0), turn)
+    }
+}
+
+impl Geometry {
+    /// Returns the transform from the previous frame to the joint.
+    pub(crate) fn before(&self) -> Isometry3<f64> {
+        match self {
+            Self::Origin(placement) => placement.motion(),
+            Self::DenavitHartenberg(row) => match row.convention {
+                DhConvention::Standard => row.z(),
+                DhConvention::Modified => row.x() * row.z(),
+            },
+        }
+    }
+
+    /// Returns the transform from the joint to the frame.
+    pub(crate) fn after(&self) -> Isometry3<f64> {
+        match self {
+            Self::DenavitHartenberg(row) if row.convention == DhConvention::Standard => row.x(),
+            _ => Isometry3::identity(),
+        }
+    }
+
+    /// Returns the sum of the lengths: the scale of rounding errors.
+    pub(crate) fn size(&self) -> f64 {
+        match self {
+            Self::Origin(placement) => placement.xyz.iter().map(|x| x.abs()).sum(),
+            Self::DenavitHartenberg(row) => row.a.abs() + row.d.abs(),
+        }
+    }
+}
+
+/// Largest distance from a multiple of 45°, in rad, that counts as rounding in the file.
+const TOLERANCE: f64 = 1e-5;
+
+/// Counts the angles of a file that are multiples of 45° but for rounding, and restores them on
+/// request.
+#[derive(Debug)]
+pub struct AngleRounding {
+    /// Replaces such an angle by the multiple.
+    round: bool,
+    count: usize,
+    /// Largest distance from a multiple, in rad.
+    farthest: f64,
+}
+
+impl AngleRounding {
+    /// Starts to count; with `round` set, `angle` restores the multiples.
+    pub fn new(round: bool) -> Self {
+        Self { round, count: 0, farthest: 0.0 }
+    }
+
+    /// Counts an angle in rad and returns it, rounded to the multiple if that is requested.
+    pub(crate) fn angle(&mut self, angle: f64) -> f64 {
+        let multiple = (angle / FRAC_PI_4).round() * FRAC_PI_4;
+        let off = (multiple - angle).abs();
+        if off == 0.0 || off > TOLERANCE {
+            return angle;
+        }
+        self.count += 1;
+        self.farthest = self.farthest.max(off);
+        if self.round { multiple } else { angle }
+    }
+
+    /// Notes the number of such angles, and the largest change.
+    pub fn note(&self, notes: &mut dyn Notes) {
+        let Self { round, count, farthest } = self;
+        if *count == 0 {
+            return;
+        }
+        let one = *count == 1;
+        notes.note(&match round {
+            true => {
+                let angles =
+                    if one { "angle was rounded to a multiple" } else { "angles were rounded to multiples" };
+                format!("{count} {angles} of 45°, by {farthest:.0e} rad at most")
+            }
+            false => {
+                let angles = if one { "angle is a multiple" } else { "angles are multiples" };
+                let them = if one { "it" } else { "them" };
+                format!(
+                    "{count} {angles} of 45° within {farthest:.0e} rad; `{ROUND_ANGLES}` rounds \
+                     {them}, which makes generated code shorter"
+                )
+            }
+        });
     }
 }

@@ -6,9 +6,7 @@ use std::sync::Arc;
 use abbe::Manipulator;
 use abbe::analysis::sampling;
 use abbe_interpreter::Interpreter;
-use abbe_spec::mistake;
-use abbe_spec::notes::Notes;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::{Diagnostics, Notes, Spec, mistake};
 use serde::Serialize;
 
 use super::chain::{Chain, Frame};

@@ -14,12 +14,11 @@ use std::fmt::Write;
 
 use abbe::analysis::sampling;
 use abbe::{Manipulator, Pose};
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Symbol;
 use abbe_spec::option::TO_URDF;
-use abbe_spec::{Loop, mistake};
+use abbe_spec::{Diagnostics, Loop, mistake};
 
-use crate::export::tree::moves;
+use crate::export::origins::moves;
 use crate::export::{ExportReport, ExportedFile, RealMachine};
 use crate::placement::roll_pitch_yaw;
 

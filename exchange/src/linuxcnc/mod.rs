@@ -12,19 +12,16 @@
 
 mod genhexkins;
 mod joint;
-mod matrix;
 
 use abbe_spec::option::{NODES, TO_LINUXCNC, option};
 use std::fmt::Write;
 
 use abbe::Error;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::mistake;
 use abbe_spec::number::digits;
+use abbe_spec::{Diagnostics, mistake};
 
 pub use genhexkins::write_genhexkins;
-use joint::CompensatedJoint;
-use matrix::CalibrationMatrix;
+use joint::{CalibrationMatrix, CompensatedJoint};
 
 use crate::export::report::unreadable;
 use crate::export::rotary_axes::{Kinematics, RotaryAxis};

@@ -1,15 +1,13 @@
 //! Nominal chain of a URDF file, joint by joint.
 
 use abbe::Pose;
-use abbe_spec::diagnostic::Diagnostic;
-use abbe_spec::document::Document;
 use abbe_spec::option::BASE;
+use abbe_spec::{Diagnostic, Document};
 use nalgebra::Isometry3;
 
 use super::read::{Ends, read};
 use crate::import::AngleRounding;
-use crate::import::chain::{Chain, Frame, Motion};
-use crate::import::geometry::Geometry;
+use crate::import::chain::{Chain, Frame, Geometry, Motion};
 use crate::placement::{Placement, joint_motion, pose};
 
 /// Chain between two links of a file.

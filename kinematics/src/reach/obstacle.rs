@@ -96,9 +96,8 @@ pub fn mobility(manipulator: &dyn Manipulator, s: &[f64]) -> Result<usize, Error
         // Lengths of rows and of prismatic joints in arm lengths.
         columns.rows_mut(0, 3).scale_mut(1.0 / metres);
         for (mut column, variable) in columns.column_iter_mut().zip(&*description.variables) {
-            if variable.kind == VariableKind::Prismatic {
-                column.scale_mut(metres);
-            }
+            let moves = f64::from(u8::from(variable.limits[0] < variable.limits[1]));
+            column.scale_mut(if variable.kind == VariableKind::Prismatic { metres * moves } else { moves });
         }
         let values = singular_values(DMatrix::from_column_slice(6, columns.ncols(), columns.as_slice()));
         let values = values.unwrap_or_default();

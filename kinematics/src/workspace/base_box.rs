@@ -2,11 +2,10 @@
 
 use std::sync::OnceLock;
 
-use super::axis::{combinations, combine};
+use super::grids::{combinations, combine};
 use super::{Axis, Show, Workspace};
-use crate::Configuration;
 use crate::configuration::in_range;
-use crate::{Inverse, ReachError, Target};
+use crate::{Configuration, Inverse, ReachError, Target};
 use abbe_core::{Error, Manipulator, Pose, Quantity};
 
 /// Orientation of the tool at the points of a [`BaseBox`].

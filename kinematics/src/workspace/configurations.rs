@@ -1,10 +1,17 @@
 //! Sets of configurations over which errors are analyzed: generated on demand, never stored.
+//!
+//! A list of configurations.
+//!
+//! Evenly spread subsets of a workspace.
+//!
+//! Unreachable configurations of a workspace.
 
 use core::ops::Range;
 
-use crate::Configuration;
-use crate::ReachError;
 use abbe_core::lanes::Tiles;
+use abbe_core::{Error, Manipulator, Quantity, checks};
+
+use crate::{Configuration, ReachError, SumLimits};
 
 /// Function that is shown configurations: the position of one in a list, the configuration, and
 /// whether it is reachable.
@@ -90,4 +97,109 @@ impl Workspace for One<'_> {
         configuration.copy_from(self.0);
         Ok(())
     }
+}
+
+/// Workspace of a list of configurations, such as a path; see [`listed`].
+#[derive(Clone, Debug)]
+pub struct Listed {
+    home: Configuration,
+    configurations: Vec<Configuration>,
+    limits: Vec<[f64; 2]>,
+    sums: SumLimits,
+}
+
+/// Creates the workspace of a list of configurations. Those with a variable outside its limits
+/// count as unreachable.
+///
+/// Returns [`Error::Count`] if a configuration has a wrong number of variables, parameters or
+/// inputs.
+pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>) -> Result<Listed, Error> {
+    let description = manipulator.description();
+    let home = Configuration::home(description);
+    for Configuration { q, s, u } in &configurations {
+        checks::length(Quantity::Variables, [home.q.len(), 1], q.len())?;
+        checks::length(Quantity::Parameters, [home.s.len(), 1], s.len())?;
+        checks::length(Quantity::Inputs, [home.u.len(), 1], u.len())?;
+    }
+    let limits = description.variables.iter().map(|variable| variable.limits).collect();
+    let sums = SumLimits::new(description, &[]);
+    Ok(Listed { home, configurations, limits, sums })
+}
+
+impl Workspace for Listed {
+    fn len(&self) -> usize {
+        self.configurations.len()
+    }
+
+    fn home(&self) -> &Configuration {
+        &self.home
+    }
+
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        configuration.copy_from(self.configurations.get(index).unwrap_or(&self.home));
+        let q = &configuration.q;
+        let outside = |(value, [lower, upper]): (&f64, &[f64; 2])| value < lower || value > upper;
+        match q.iter().zip(&self.limits).position(outside) {
+            Some(variable) => {
+                Err(ReachError::OutsideLimits { variable, value: q[variable], limits: self.limits[variable] })
+            }
+            None => self.sums.check(q),
+        }
+    }
+}
+
+/// `1/φ`: its multiples modulo 1 are evenly spread, and align with no grid.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Subset of at most `count` configurations of a workspace, spread over its indices. A smaller
+/// workspace is kept whole.
+pub struct Subset<'a> {
+    /// Original workspace.
+    pub workspace: &'a dyn Workspace,
+    /// Largest number of configurations.
+    pub count: usize,
+}
+
+impl Workspace for Subset<'_> {
+    fn len(&self) -> usize {
+        self.workspace.len().min(self.count)
+    }
+
+    fn home(&self) -> &Configuration {
+        self.workspace.home()
+    }
+
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        self.workspace.fill(self.place(index), configuration)
+    }
+
+    fn fill_each(&self, indices: &[usize], show: &mut Show<'_>) {
+        let places: Vec<usize> = indices.iter().map(|index| self.place(*index)).collect();
+        self.workspace.fill_each(&places, show);
+    }
+}
+
+impl Subset<'_> {
+    /// Returns the index in the original workspace.
+    pub fn place(&self, index: usize) -> usize {
+        let all = self.workspace.len();
+        match all <= self.count {
+            true => index,
+            false => ((index as f64 * GOLDEN).fract() * all as f64) as usize,
+        }
+    }
+}
+
+/// Unreachable configuration of a workspace.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Unreachable {
+    /// Index in the workspace.
+    pub index: usize,
+    /// Target point in `F_0`, if targets vary.
+    pub point: Option<[f64; 3]>,
+    /// Requested configuration. Variables to be solved hold their start values.
+    pub requested: Configuration,
+    /// Reason.
+    pub reason: ReachError,
 }

@@ -1,10 +1,9 @@
 //! The paper's workspace: a volume of tool points, each presented at a fixed point of the room.
 
-use super::axis::{combinations, combine};
+use super::grids::{combinations, combine};
 use super::{Axis, Workspace};
-use crate::Configuration;
 use crate::configuration::in_range;
-use crate::{ReachError, Target, inverse, sampling};
+use crate::{Configuration, ReachError, Target, inverse, sampling};
 use abbe_core::{Error, Manipulator, Quantity};
 
 /// Tool points, target point and approaches of a presented volume.

@@ -2,11 +2,10 @@
 
 use core::ops::Range;
 
-use super::axis::{combinations, combine};
+use super::grids::{combinations, combine};
 use super::{Axis, Show, Workspace};
-use crate::Configuration;
-use crate::ReachError;
 use crate::configuration::in_range;
+use crate::{Configuration, ReachError};
 use abbe_core::lanes::Tiles;
 use abbe_core::{Error, Manipulator, Quantity};
 

@@ -6,14 +6,16 @@ pub mod options;
 mod reason;
 mod rows;
 
+use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::POSES;
 use serde::Serialize;
 
-use crate::data::{Base, Data, Heading, Layout, Map, Summary, Table, Unusable};
+use crate::data::{Base, Channel, Data, Heading, Layout, Map, Summary, Table, Unusable};
 use crate::running_sums::RunningSums;
-use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
-use abbe_study::{Machine, Notes, Residuals, RunRecord, finite, mistake, number};
+use abbe_study::extrapolation::{Extrapolation, ToolPointDeviation, warn_of_extrapolation};
+use abbe_study::{Evaluator, Machine, Notes, Residuals, RunRecord, finite, mistake, number};
 
 use base_frame::BaseFramePoses;
 pub use commands::{CommandCorrector, CorrectedCommand};
@@ -53,6 +55,11 @@ pub struct Report {
     pub after: NormStatistics,
     /// Number of independent tool motions, from 0 to 6.
     pub mobility: usize,
+    /// Joints that the map fixes: they are not corrected.
+    pub held: Vec<String>,
+    /// Standard deviation of the tool point by the covariance and the random sources of the spec,
+    /// root mean square over the rows, in the length unit; none if the spec states no covariance.
+    pub deviation: Option<f64>,
     /// Rows outside the fitted ranges, with the uncertainty there; `None` if all rows are within
     /// them.
     pub extrapolated: Option<Extrapolation>,
@@ -90,6 +97,10 @@ pub struct RowSummary {
     pub far: usize,
     /// Line with the largest rotation of a joint, and that rotation in rad.
     pub farthest: Option<(u64, f64)>,
+    /// Number of rows with a larger orientation error than before.
+    pub turned: usize,
+    /// Line with the largest of them, and these errors before and after in rad.
+    pub most_turned: Option<(u64, [f64; 2])>,
 }
 
 impl RowSummary {
@@ -97,6 +108,8 @@ impl RowSummary {
     const SHOWN: usize = 10;
     /// Rotation of a joint, in degrees, above which it counts as far.
     pub const FAR: f64 = 10.0;
+    /// Increase of the orientation error, in rad, from which it counts.
+    const TURNED: f64 = 1e-5;
 
     fn add(&mut self, row: &Row) {
         self.rows += 1;
@@ -107,6 +120,13 @@ impl RowSummary {
             self.failed += 1;
             if self.reasons.len() < Self::SHOWN {
                 self.reasons.push((row.line, reason.clone()));
+            }
+        }
+        let [before, after] = [row.before.angle, row.after.angle];
+        if after > before + Self::TURNED {
+            self.turned += 1;
+            if self.most_turned.is_none_or(|(_, [_, most])| after > most) {
+                self.most_turned = Some((row.line, [before, after]));
             }
         }
         if row.largest_turn > Self::FAR.to_radians() {
@@ -168,11 +188,17 @@ impl Compensate {
             check_poses(map)?;
         }
         // The search tries commands beyond the limits.
-        let manipulator = machine.with_held_tables().evaluator(true);
+        let machine = machine.with_held_tables();
+        let (spec, held) = with_held_joints(&machine.spec, map);
+        let manipulator = match held.is_empty() {
+            true => machine.evaluator(true),
+            false => Evaluator::Interpreted(Box::new(Interpreter::new(spec))),
+        };
         let data = self.data.completed(map, &*manipulator, &machine.spec);
         let configurations = || data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         let extrapolated =
             warn_of_extrapolation(&machine.spec, &*manipulator, &[[0.0; 3]], "rows", configurations(), notes);
+        let deviation = ToolPointDeviation::at(&machine.spec, &*manipulator, configurations());
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
         let base_frame = BaseFramePoses::new(map, &data);
         let (mut row_summary, mut norms) = (RowSummary::default(), [[RunningSums::default(); 2]; 2]);
@@ -203,6 +229,8 @@ impl Compensate {
             compensated: row_summary.rows - row_summary.failed,
             tolerance: *tolerance,
             mobility: task.mobility,
+            held,
+            deviation,
             extrapolated,
             before: NormStatistics::new(&norms[0]),
             after: NormStatistics::new(&norms[1]),
@@ -215,6 +243,19 @@ impl Compensate {
         };
         Ok(finite(&self.data.file, report)?)
     }
+}
+
+/// Returns the spec with joints whose values the map fixes held there by their limits, and their
+/// names.
+fn with_held_joints(spec: &Spec, map: &Map) -> (Spec, Vec<String>) {
+    let (mut spec, mut held) = (spec.clone(), Vec::new());
+    for (variable, channel) in spec.variables.iter_mut().zip(&map.joints) {
+        if let Channel::Fixed(value) = channel {
+            variable.limits = [*value; 2];
+            held.push(variable.name.clone());
+        }
+    }
+    (spec, held)
 }
 
 /// Checks that a map describes poses in a known base frame.

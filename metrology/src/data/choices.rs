@@ -22,6 +22,9 @@ pub(super) const PLACEMENTS: [(&str, Placed); 3] =
 
 pub(super) const QUATERNION_ORDERS: [(&str, Order); 2] = [("wxyz", Order::Wxyz), ("xyzw", Order::Xyzw)];
 
+/// Commands that rows hold, each with `true` for those after the correction.
+pub(super) const COMMANDS: [(&str, bool); 2] = [("programmed", false), ("corrected", true)];
+
 /// Mounts of a camera, each with `true` if the camera is on the tool.
 pub(super) const MOUNTS: [(&str, bool); 2] = [("tool", true), ("room", false)];
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use abbe_spec::bounded::{Bounded, UnreadableFile, not_text};
-use abbe_spec::cell::meant;
+use abbe_spec::csv_writer::meant;
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::dialect::Dialect;

@@ -6,7 +6,7 @@ use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, T
 use abbe_spec::keys::When::{Always, Has, Is, Lacks};
 use abbe_spec::keys::{Rule, words};
 
-use super::choices::{BASES, INTRINSIC_CHOICES, MOUNTS, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN};
+use super::choices::{BASES, COMMANDS, INTRINSIC_CHOICES, MOUNTS, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN};
 use super::target_frame::TARGET_FRAMES;
 use super::turn::EULER_ORDERS;
 
@@ -63,7 +63,7 @@ abbe_spec::tables! {
         "distance": Tables("[[distance]]"), "-", "none",
             "Known distances between the points of instruments, such as a bar between two nests: they give the machine its scale";
         "accept": Table("[accept]"), "-", "no limits",
-            "Limits for the errors of rows that were not used in a fit; without any, there is no verdict";
+            "Limits for the errors of the machine in `measure`, and for those of the identified model in `identify`; without any, there is no verdict";
         "record": Table("[record]"), "-", "nothing stated",
             "Statements about the run for the pages of `measure`, `identify`, `monitor` and `compensate`";
     ]
@@ -77,6 +77,8 @@ abbe_spec::tables! {
             "Standard deviation of a measured rotation; `\"unknown\"`: `identify` estimates it from the data";
         "base": Choice(|| words(&BASES)), "-", "`\"known\"`",
             "Pose of the instrument: in `F_0` but for small errors, anywhere, or exactly in `F_0`";
+        "commands": Choice(|| words(&COMMANDS)), "-", "`\"programmed\"`",
+            "Joint values of the rows: those of the program, at which `measure` judges the errors from the ideal machine, or those that the controller or `compensate` made of them, at which the machine with the errors of its spec should be where the program meant";
         "group": COLUMN, "-", "rows with the same joints and inputs",
             "Column that identifies the visits of one configuration. Folds, degrees of freedom and uncertainties count configurations, not rows. Without it, rows belong together whose angles differ by at most 0.1 mrad, travels by 0.01 mm, and inputs by 1 % of their range";
         "direction": COLUMN, "-", "not known",

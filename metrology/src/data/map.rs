@@ -85,6 +85,8 @@ pub struct Map {
     pub target_frame: TargetFrame,
     /// Mounting of the targets on the tool.
     pub placement: Placement,
+    /// Rows hold corrected commands: their poses are those that the machine should then have.
+    pub is_corrected: bool,
     /// Limits for rows that were not used in a fit.
     pub accept: Acceptance,
     /// Date, operator, machine and instrument as stated for the page.
@@ -130,6 +132,7 @@ impl Map {
             stations: Stations::default(),
             target_frame: TargetFrame::default(),
             placement: Placement::default(),
+            is_corrected: false,
             accept: Acceptance::default(),
             record: RunRecord::default(),
             is_newly_stationed: false,

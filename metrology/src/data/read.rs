@@ -9,7 +9,7 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::{Diagnostic, Diagnostics, Spec};
 
-use super::choices::{BASES, QUATERNION_ORDERS};
+use super::choices::{BASES, COMMANDS, QUATERNION_ORDERS};
 use super::column::Column;
 use super::configurations::resolution;
 use super::keys;
@@ -137,6 +137,7 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
         stations: stations?,
         target_frame,
         placement: placement?,
+        is_corrected: head.get("commands").map_or(Some(false), |item| item.choice(&COMMANDS))?,
         accept: accept?,
         record: record?,
         is_newly_stationed: false,

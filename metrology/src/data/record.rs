@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use abbe_spec::cell::meant;
+use abbe_spec::csv_writer::meant;
 use abbe_spec::expr::LARGEST;
 use csv::StringRecord;
 

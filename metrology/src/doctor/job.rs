@@ -64,10 +64,14 @@ impl Doctor<'_> {
             ));
         }
         let finding = |candidate: &Candidate| Finding {
-            words: words::interpretation(&candidate.interpretation, spec),
+            words: std::iter::once(words::interpretation(&candidate.interpretation, spec))
+                .chain(words::places(candidate, spec))
+                .collect::<Vec<_>>()
+                .join("; "),
             interpretation: candidate.interpretation.clone(),
             residual: candidate.residual.position,
             angle: candidate.residual.angle,
+            spread: candidate.spread,
             both: candidate.residual.both,
         };
         let (map, of_spec) = match found.first() {

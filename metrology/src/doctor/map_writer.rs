@@ -16,7 +16,7 @@ const DIGITS: usize = 8;
 /// Returns the map, and sentences on what a map cannot express. Measurement uncertainties are
 /// unknown.
 pub(super) fn map(candidate: &Candidate, spec: &Spec, columns: &Columns) -> (String, Vec<String>) {
-    let Candidate { interpretation, tool, .. } = candidate;
+    let Candidate { interpretation, base: station, tool, .. } = candidate;
     let placement = tool.and_then(|tool| tool_placement(tool, interpretation.layout, spec));
     let count = spec.variables.len();
     let mut joints = Joints { order: (0..count).collect(), signs: vec![1; count], zeros: vec![0.0; count] };
@@ -28,6 +28,7 @@ pub(super) fn map(candidate: &Candidate, spec: &Spec, columns: &Columns) -> (Str
             Change::Reversed(reversed) => reversed.iter().for_each(|i| joints.signs[*i] = -1),
             // With a coupling it would be the zero of another joint value.
             Change::Zero { joint, offset } if !coupled => joints.zeros[*joint] = *offset,
+            // Its pose is below; `identify` fits it anew.
             Change::BaseElsewhere => base = "unknown",
             Change::ToolElsewhere if placement.is_some() => {}
             change => of_spec.push(words::change(change, spec)),
@@ -51,6 +52,7 @@ pub(super) fn map(candidate: &Candidate, spec: &Spec, columns: &Columns) -> (Str
     let joints = TableText::with_header("\n[joints]").then(joints.keys(interpretation, spec, columns));
     let measured = measured_table(interpretation, columns);
     text += &data.text("base", base).then(joints).then(measured).to_string();
+    text += &station.map(|pose| placed("\n[[station]]", pose, spec)).unwrap_or_default().to_string();
     text += &placement.unwrap_or_default().to_string();
     (text, of_spec)
 }
@@ -139,12 +141,16 @@ fn tool_placement(tool: Pose, layout: PoseFormat, spec: &Spec) -> Option<TableTe
     match layout {
         PoseFormat::Position => Some(table.key("targets", list([point]))),
         PoseFormat::Difference { .. } => None,
-        _ => {
-            let [x, y, z, _] = tool.0;
-            let turn = list(quaternion(&[x, y, z]).map(|x| digits(x, DIGITS)));
-            Some(table.key("position", point).key("quaternion", turn))
-        }
+        _ => Some(placed("\n[placement]", tool, spec)),
     }
+}
+
+/// Returns the table of a pose.
+fn placed(header: &str, pose: Pose, spec: &Spec) -> TableText {
+    let [x, y, z, position] = pose.0;
+    let turn = list(quaternion(&[x, y, z]).map(|x| digits(x, DIGITS)));
+    let point = list(position.map(|x| quantity(digits(x, DIGITS), spec.length.symbol())));
+    TableText::with_header(header).key("position", point).key("quaternion", turn)
 }
 
 /// Returns the column indices of the position, and of the rotation matrix row by row.

@@ -16,6 +16,9 @@ pub struct Finding {
     /// Root mean square residual of the orientations, in rad; `None` if the data have no
     /// orientations.
     pub angle: Option<f64>,
+    /// Root mean square distance of the positions from their mean, as this interpretation reads
+    /// them, in the spec's length unit.
+    pub spread: f64,
     /// Combined root mean square residual, in the spec's length unit, which is compared with
     /// `within`. Angles are multiplied by a lever of 0.3 × the spread of the positions. Corrected
     /// for the degrees of freedom that fitted numbers take.

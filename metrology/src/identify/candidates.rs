@@ -4,10 +4,11 @@ use abbe::identify::Observation;
 use abbe::{Component, VariableKind};
 use abbe_codegen::chain::frame_twists;
 use abbe_codegen::graph::Graph;
-use abbe_spec::{ChainNumber, Factor, Spec};
+use abbe_spec::{ChainNumber, Factor, Frame, Spec};
 
 use super::derived::{Derived, DerivedKind};
 use super::families::{Family, Harmonics};
+use super::options::family_name;
 use super::terms::{Angle, Basis, ErrorSite, HeldJoint, Term, Wave, held_ranges};
 
 /// Groups of terms by stage, the likelier ones first. A group is accepted or rejected as a whole,
@@ -16,30 +17,37 @@ use super::terms::{Angle, Basis, ErrorSite, HeldJoint, Term, Wave, held_ranges};
 pub type Stages = Vec<Vec<Vec<Term>>>;
 
 /// Returns the candidate terms of several families together, then those of each family alone that
-/// has any; only the former for a single family. Functions of joints are held outside of what the
-/// rows cover.
+/// has any; only the former for a single family. Each set has the name of its families. Functions
+/// of joints are held outside of what the rows cover.
 pub(super) fn competing(
     spec: &Spec,
     derived: &[Derived],
     families: &[Family],
     harmonics: &[Harmonics],
     rows: &[Observation],
-) -> Vec<Stages> {
+) -> Vec<(String, Stages)> {
     let ranges = held_ranges(spec, rows);
     let together = candidates(spec, derived, families, harmonics);
     let alone = |family: &Family| {
         let harmonics = if *family == Family::Joint { harmonics } else { &[] };
-        candidates(spec, derived, &[*family], harmonics)
+        (family_name(*family).to_owned(), candidates(spec, derived, &[*family], harmonics))
     };
-    let alone: Vec<Stages> = families.iter().map(alone).filter(|stages| !stages.is_empty()).collect();
-    let alone = if alone.len() > 1 { alone } else { Vec::new() };
-    let mut all: Vec<Stages> =
-        [together].into_iter().filter(|stages| !stages.is_empty()).chain(alone).collect();
-    let terms = all.iter_mut().flatten().flatten().flatten();
-    terms.for_each(|term| *term = term.within(&ranges));
+    let mut sets: Vec<_> = families.iter().map(alone).filter(|(_, stages)| !stages.is_empty()).collect();
+    let names = match &sets[..] {
+        [] => "harmonics".to_owned(),
+        sets => sets.iter().map(|(name, _)| &name[..]).collect::<Vec<_>>().join(", "),
+    };
+    if sets.len() < 2 {
+        sets.clear();
+    }
+    sets.insert(0, (names, together));
+    sets.retain(|(_, stages)| !stages.is_empty());
     let is_told = |group: &Vec<Term>| group.iter().all(|term| !term.is_hidden());
-    all.iter_mut().flatten().for_each(|stage| stage.retain(is_told));
-    all
+    for stage in sets.iter_mut().flat_map(|(_, stages)| stages) {
+        stage.iter_mut().flatten().for_each(|term| *term = term.within(&ranges));
+        stage.retain(is_told);
+    }
+    sets
 }
 
 /// Returns the candidate terms of these families. `spec` must have the derived inputs after its
@@ -155,13 +163,14 @@ fn load(spec: &Spec, inputs: usize) -> Vec<Vec<Term>> {
     (0..inputs).flat_map(|input| sites.iter().map(move |site| term(input, *site))).collect()
 }
 
-/// Returns the rotational errors of the base, if they can be located at the first frame, and of
-/// every frame.
+/// Returns the rotational errors of the base, if they can be located at a first frame on which all
+/// others hang, and of every frame.
 fn turns(spec: &Spec) -> Vec<[ErrorSite; 3]> {
     let turns = [Component::Spin, Component::Roll, Component::Pitch];
-    let inverse =
-        |frame: &abbe_spec::Frame| !frame.factors.iter().any(|factor| matches!(factor, Factor::Matrix(_)));
-    let base = spec.frames.first().is_some_and(inverse).then(|| turns.map(ErrorSite::Base));
+    let has_inverse = |frame: &Frame| !frame.factors.iter().any(|factor| matches!(factor, Factor::Matrix(_)));
+    let is_alone = spec.frames.iter().skip(1).all(|frame| frame.parent.is_some())
+        && spec.loops.iter().all(|closed| closed.frames.iter().all(Option::is_some));
+    let base = (is_alone && spec.frames.first().is_some_and(has_inverse)).then(|| turns.map(ErrorSite::Base));
     let frames = (0..spec.frames.len()).map(|frame| turns.map(|turn| ErrorSite::Frame(frame, turn)));
     base.into_iter().chain(frames).collect()
 }

@@ -26,6 +26,8 @@ pub(super) struct Chosen {
     pub(super) constant: Option<Assessed>,
     /// Number of groups tried.
     pub(super) tried: usize,
+    /// Names of the families that have them.
+    pub(super) families: String,
     /// Notes for the report.
     pub(super) notes: Vec<String>,
 }
@@ -38,7 +40,7 @@ pub(super) struct Chosen {
 /// terms of all families are preferred only if they are significantly better than the best family.
 pub(super) fn choose(
     input: &FitInput,
-    sets: &[Stages],
+    sets: &[(String, Stages)],
     notes: &mut dyn Notes,
 ) -> Result<Chosen, Diagnostics> {
     let FitInput { spec, data, settings, .. } = *input;
@@ -51,27 +53,29 @@ pub(super) fn choose(
         return Ok(Chosen::default());
     }
     let constant = Assessed::new(&solved, data)?;
-    let groups = sets.iter().flatten().map(Vec::len).sum();
+    let groups = sets.iter().flat_map(|(_, stages)| stages).map(Vec::len).sum();
     let model = offered.model(&solved, setup.declared + own.len());
     let begin = Instant::now();
     let mut selector = Selector { input, offered, solved: &solved, model, groups, tried: 0, begin };
     let (mut skipped, mut selected) = (Vec::new(), Vec::new());
     let mut tried = 0;
-    for (i, stages) in sets.iter().enumerate() {
+    for (i, (families, stages)) in sets.iter().enumerate() {
         if i > 0 && selector.is_over() {
             break;
         }
-        let mut chosen = selector.forward(stages, notes)?;
-        skipped.append(&mut chosen.notes);
+        let chosen = selector.forward(stages, notes).and_then(|mut chosen| {
+            skipped.append(&mut chosen.notes);
+            chosen.determined(input, &constant, notes)
+        });
         if i == 0 {
             // Those of the families alone are among them.
             tried = selector.tried;
         }
-        match chosen.determined(input, &constant, notes) {
-            Ok(one) => selected.push(one),
-            Err(mistake) if i == 0 => return Err(mistake),
-            Err(_) => notes.go_on()?,
-        }
+        selected.push(chosen.unwrap_or_else(|mistake| {
+            skipped.push(failed(families, &mistake));
+            None
+        }));
+        notes.go_on()?;
     }
     notes.progress(groups, groups);
     let mut selected = selected.into_iter();
@@ -87,7 +91,15 @@ pub(super) fn choose(
         }
         (together, alone) => together.or(alone).map(|(chosen, _)| chosen).unwrap_or_default(),
     };
-    Ok(Chosen { constant: Some(constant), tried, notes: skipped, ..best })
+    let families = sets.first().map(|(families, _)| families.clone()).unwrap_or_default();
+    Ok(Chosen { constant: Some(constant), tried, families, notes: skipped, ..best })
+}
+
+/// Returns the note that the fit with terms of some families failed.
+fn failed(families: &str, mistake: &Diagnostics) -> String {
+    let reason = mistake.to_string();
+    let reason = reason.lines().next().unwrap_or_default().trim_start_matches("error: ");
+    format!("note: no terms of `{families}`: their fit failed: {reason}")
 }
 
 /// Distinct carriers and factors of the candidate terms. The interpreter computes only the error of
@@ -99,9 +111,9 @@ struct Offered {
 }
 
 impl Offered {
-    fn new(sets: &[Stages]) -> Self {
+    fn new(sets: &[(String, Stages)]) -> Self {
         let (mut carriers, mut factors) = (Vec::new(), Vec::new());
-        for term in sets.iter().flatten().flatten().flatten() {
+        for term in sets.iter().flat_map(|(_, stages)| stages).flatten().flatten() {
             let carrier = term.carrier();
             if unknown_error(carrier).is_none() && !carriers.contains(&carrier) {
                 carriers.push(carrier);

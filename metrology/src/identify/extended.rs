@@ -23,7 +23,7 @@ pub fn extended(spec: &Spec, terms: &[Term]) -> Spec {
                 force: None,
                 moment: None,
                 axes: Axes::Frame,
-                frame: spec.frames.len().saturating_sub(1),
+                frame: spec.tool_frame,
                 point: Point::Tool,
             });
         }

@@ -23,8 +23,8 @@ impl TestExtrapolation {
     /// Returns none if there are no such rows. `written` is the machine of the written spec,
     /// `points` are the measured ones in the frame of the tool.
     ///
-    /// The deviations follow from the covariance of the written spec, as in `measure`. Errors that
-    /// the model lacks are not included.
+    /// The deviations follow from the covariance and the random sources of the written spec, as in
+    /// `measure`.
     pub(super) fn new(
         found: &FoundModel,
         spec: &Spec,

@@ -27,7 +27,7 @@ use super::indistinguishable::indistinguishable;
 use super::instruments::{InstrumentFit, instrument_and_coordinate_fits, unequal_note};
 use super::known_distances::known_distance_fits;
 use super::leg_terms::leg_terms;
-use super::options::{LOSSES, ONLY, Settings, TERMS};
+use super::options::{LOSSES, ONLY, Settings, family_name};
 use super::parameters::{correlated, magnitudes, parameters, redundant};
 use super::plausibility::{check_lengths, tool_note};
 use super::point_residuals::points;
@@ -42,8 +42,8 @@ use super::train_test_overlap::{overlap_warning, train_test_overlap};
 use super::unexplained::unexplained;
 use super::unread::comparable;
 use super::weakly_determined::WeaklyDetermined;
-use crate::Acceptance;
 use crate::data::{Data, Map, Summary};
+use crate::{Acceptance, Judged};
 use abbe_study::{Machine, Notes, finite, mistake};
 
 /// Identification of the errors of a machine from measurements.
@@ -73,8 +73,7 @@ impl Identify {
         let Self { machine, map: _, data: _, test: _, terms, harmonics, settings, accept } = self;
         let Settings { loss, only_placement, prior, folds, time, points: _ } = settings;
         let spec = &machine.spec;
-        let named = |family: &Family| TERMS.0.iter().find(|(families, ..)| *families == [*family]);
-        let terms = terms.iter().filter_map(named).map(|(_, name, _)| *name);
+        let terms = terms.iter().map(|family| family_name(*family));
         let harmonics = harmonics.iter().map(|Harmonics { variable, times }| {
             let times = times.iter().map(u16::to_string).collect::<Vec<_>>().join(",");
             format!("{}={times}", spec.variables[*variable].name)
@@ -136,16 +135,15 @@ impl Identify {
         let interpreter = input.interpreter(&terms);
         let (setup, solved) = input.complete_fit(&interpreter, &terms, sets.is_empty(), notes)?;
         let families = if solved.is_placement() { &[][..] } else { &self.terms };
-        let profiles = find_profiles(families, &input, (&setup, &solved), notes)?;
-        let profiled = profiles
-            .found
+        let (found, notes_on_profiles) = find_profiles(families, &input, (&setup, &solved), notes)?;
+        let profiled = found
             .as_ref()
             .map(|found| FitInput { spec: &found.added_to(&spec), ..input }.interpreter(&terms));
-        let (setup, mut solved) = match (profiles.found, &profiled) {
+        let (setup, mut solved) = match (found, &profiled) {
             (Some(found), Some(profiled)) => found.refit(profiled, (setup, solved), &input, notes)?,
             _ => (setup, solved),
         };
-        solved.notes.extend(profiles.note);
+        solved.notes.extend(notes_on_profiles);
         let plain = input.interpreter(&[]);
         let constant = match terms.is_empty() && profiled.is_none() {
             true => None,
@@ -259,8 +257,10 @@ fn report(
     let assess = |test: &Data| compare(solved, constant, &setup.delivered, test, |_| true);
     let test_sizes = test.map(assess).transpose()?;
     let accepted = match &test_sizes {
-        Some(test) => job.accept.verdict("the test rows", &test.after),
-        None => job.accept.verdict("cross-validation", &cross_validation.after),
+        Some(test) => job.accept.verdict((Judged::Model, "the test rows"), &test.after, (0.0, 1)),
+        None => {
+            job.accept.verdict((Judged::Model, "rows left out in turn"), &cross_validation.after, (0.0, 1))
+        }
     };
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
     let (left, length) = (compared_fit.after.rms, setup.real.uncertainty.length);
@@ -325,6 +325,7 @@ fn report(
         cross_validation,
         terms: gains.collect(),
         tried: chosen.tried,
+        families: chosen.families.clone(),
         profiles: solved.profiles.clone(),
         drift: drift.map(ResidualDrift::new),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),

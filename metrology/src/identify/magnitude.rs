@@ -9,15 +9,15 @@ use abbe_spec::{Magnitude, Source, Spec};
 
 /// Source of the spec with an unknown magnitude.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct OwnMagnitude {
+pub(crate) struct OwnMagnitude {
     /// Index among all sources of the spec.
     pub(super) source: usize,
     /// Magnitude declared in the spec.
-    pub(super) declared: Magnitude,
+    pub(crate) declared: Magnitude,
 }
 
 /// Returns the enabled repeatable sources with a declared magnitude, in the order of the spec.
-pub(super) fn own_magnitudes(spec: &Spec) -> Vec<OwnMagnitude> {
+pub(crate) fn own_magnitudes(spec: &Spec) -> Vec<OwnMagnitude> {
     let sources = spec.sources.iter().enumerate();
     let known = sources.filter(|(_, source)| source.enabled && source.class == Class::Repeatable);
     known.filter_map(|(i, source)| Some(OwnMagnitude { source: i, declared: source.magnitude? })).collect()

@@ -119,6 +119,8 @@ pub(crate) use chain_numbers::{chain_errors, unknowns_of};
 pub(crate) use indistinguishable::indistinguishable;
 pub(crate) use interpretation_check::check_interpretation;
 pub(crate) use line_of_sight::{nothing_readable, readable_configurations};
+pub(crate) use magnitude::own_magnitudes;
+pub(crate) use parameters::redundant;
 pub(crate) use plausibility::{check_plausibility, too_large};
 pub(crate) use scale::scale_note;
 pub(crate) use setup::Setup;

@@ -54,10 +54,15 @@ pub const TERMS: Choices<&[Family]> = Choices(&[
     (
         &[Family::Profile],
         "profile",
-        "Joint errors as functions of the joint, by up to 64 cycles per turn, as tables; they need \
-         128 points for each joint, at least 512, over whole turns",
+        "Joint errors as functions of the joint, by up to 64 cycles per turn, as tables; best from \
+         hundreds of points over whole turns",
     ),
 ]);
+
+/// Returns the name of a family in [`TERMS`].
+pub(super) fn family_name(family: Family) -> &'static str {
+    TERMS.0.iter().find(|(families, ..)| *families == [family]).map_or("", |(_, name, _)| name)
+}
 
 /// Settings of an identification.
 #[derive(Clone, Debug)]

@@ -109,7 +109,7 @@ fn times(factor: f64) -> String {
 }
 
 /// Returns the unknowns that others stand for.
-pub(super) fn redundant(model: &Model, identifiable: &Identifiable) -> Vec<Redundant> {
+pub(crate) fn redundant(model: &Model, identifiable: &Identifiable) -> Vec<Redundant> {
     let name = |k: &usize| model.name(model.unknowns[*k]);
     let one = |(k, acts_as): &(usize, Vec<(usize, f64)>)| Redundant {
         name: name(k),

@@ -8,15 +8,14 @@
 
 use std::time::Instant;
 
-use abbe::VariableKind;
 use abbe::identify::{
-    Comparison, Distances, Failure, Folds, Observation, ProfileBasis, ProfileData, ProfileJoint, Profiles,
-    Unknown, fit_profiles,
+    Comparison, Distances, Failure, Folds, Observation, ProfileBasis, ProfileJoint, Profiles, Unknown,
+    fit_profiles,
 };
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::{Expression, Symbol};
-use abbe_spec::{ChainNumber, Deviation, DeviationCause, Source, Spec};
+use abbe_spec::{ChainNumber, Deviation, DeviationCause, Source, Spec, Variable};
 
 use super::as_joint_errors::number_terms;
 use super::complete_fit::FitInput;
@@ -32,22 +31,11 @@ use abbe_study::{Notes, mistake};
 /// Significance level of the paired test.
 const CHANCE: f64 = 0.01;
 
-/// Smallest share of the rows in the range of a profile.
-const COVERED: f64 = 0.9;
-
 /// Cycles per turn of the highest harmonic, and twice its cycles over a travel.
-const HIGHEST: f64 = 64.0;
+const HIGHEST: f64 = ProfileBasis::CYCLES as f64;
 
 /// Rows at which the standard deviation of the tool point is evaluated.
 const SAMPLES: usize = 500;
-
-/// Profiles of joints that were found, and why not.
-#[derive(Default)]
-pub(super) struct ProfileTrial {
-    pub(super) found: Option<FoundProfiles>,
-    /// Note for the report.
-    pub(super) note: Option<String>,
-}
 
 /// Profiles that a paired test has shown to reduce the error of held-out rows.
 pub(super) struct FoundProfiles {
@@ -56,61 +44,63 @@ pub(super) struct FoundProfiles {
     joints: Vec<JointProfile>,
 }
 
-/// Fits profiles if `families` include them. A note says why there are none, if the user named the
-/// family instead of trying all.
+/// Fits profiles if `families` include them. Notes say why there are none, and which joints do not
+/// move enough. Refuses displacements if the user named the family instead of trying all.
 pub(super) fn find_profiles(
     families: &[Family],
     input: &FitInput,
     fitted: (&Setup, &Solved),
     notes: &mut dyn Notes,
-) -> Result<ProfileTrial, Diagnostics> {
+) -> Result<(Option<FoundProfiles>, Vec<String>), Diagnostics> {
     let data = input.data;
     if !families.contains(&Family::Profile) {
-        return Ok(ProfileTrial::default());
+        return Ok((None, Vec::new()));
     }
     let is_named = !Family::ALL.iter().all(|family| families.contains(family));
-    if is_named && data.observations.iter().any(|row| row.from().is_some()) {
+    let is_displaced = data.observations.iter().any(|row| row.from().is_some());
+    if is_displaced && is_named {
         let message = "profiles of joints cannot be fitted to displacements between rows";
         let help = "leave out `profile`, or read the instrument as an `indicator` with its zero";
         return Err(mistake::with_help(&data.file, message, help));
     }
-    Ok(match find(input, fitted, notes)? {
-        Ok(found) => ProfileTrial { found: Some(found), note: None },
+    let (offered, mut why) = joints(input.spec, fitted.0, &data.observations);
+    let found = match find(input, fitted.1, &offered, notes)? {
+        Ok(found) => Some(found),
         Err(reason) => {
-            let note = is_named.then(|| format!("note: no profiles of joints: {reason}"));
-            ProfileTrial { found: None, note }
+            why.push(format!("note: no profiles of joints: {reason}"));
+            None
         }
-    })
+    };
+    Ok((found, why))
 }
 
-/// Fits profiles of all joints that move. Returns the reason if none are kept.
+/// Fits profiles of these joints. Returns the reason if none are kept.
 ///
 /// The manipulator of the setup ends with the [`number_terms`] of `spec`.
 fn find(
     input: &FitInput,
-    (setup, solved): (&Setup, &Solved),
+    solved: &Solved,
+    offered: &[ProfileJoint],
     notes: &mut dyn Notes,
 ) -> Result<Result<FoundProfiles, String>, Diagnostics> {
     let FitInput { spec, data, settings, .. } = *input;
     let rows = &data.observations;
-    let (moving, offered) = joints(spec, setup, rows);
-    if let Some(missing) = missing(rows, if offered.is_empty() { &moving } else { &offered }) {
-        return Ok(Err(missing));
-    }
     if offered.is_empty() {
-        let reason = "no joint moves over a range without gaps wider than 5.6° or a 32nd of its travel";
-        return Ok(Err(reason.to_owned()));
+        return Ok(Err("no joint moves enough".to_owned()));
+    }
+    if rows.iter().any(|row| row.from().is_some()) {
+        return Ok(Err("the rows are displacements".to_owned()));
     }
     let start = Instant::now();
     let stops = &*notes;
     let mut proceed = || !stops.stop() && settings.time.is_none_or(|time| start.elapsed() < time);
     let folds = Folds::new(rows, settings.folds);
-    let fitted = fit_profiles(&solved.model, rows, &solved.fit, &offered, &folds, &mut proceed);
+    let fitted = fit_profiles(&solved.model, rows, &solved.fit, offered, &folds, &mut proceed);
     let fitted = fitted.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let on_time = proceed();
     notes.go_on()?;
     let reason = match on_time {
-        true => "they do not reduce the cross-validation error by half a percent each",
+        true => "they do not reduce the cross-validation error enough",
         false => "the time limit was reached",
     };
     let Some(fitted) = fitted else { return Ok(Err(reason.to_owned())) };
@@ -148,23 +138,48 @@ fn find(
     Ok(Ok(FoundProfiles { joints, comparison, fitted }))
 }
 
-/// Returns the joints that move, and those of them whose rows leave no gaps in a range.
-fn joints(spec: &Spec, setup: &Setup, rows: &[Observation]) -> (Vec<ProfileJoint>, Vec<ProfileJoint>) {
-    let (mut moving, mut offered) = (Vec::new(), Vec::new());
+/// Returns the joints that move enough for a profile, and a note for each other one that moves.
+fn joints(spec: &Spec, setup: &Setup, rows: &[Observation]) -> (Vec<ProfileJoint>, Vec<String>) {
+    let (mut offered, mut notes) = (Vec::new(), Vec::new());
     for variable in setup.moved(rows) {
+        let Variable { name, kind, .. } = &spec.variables[variable];
         let mut values: Vec<f64> = rows.iter().map(|row| row.q[variable]).collect();
         values.sort_unstable_by(f64::total_cmp);
         let range = [values[0], values[values.len() - 1]];
-        let (basis, gap) = match spec.variables[variable].kind {
-            VariableKind::Revolute => (ProfileBasis::Turn, core::f64::consts::TAU / HIGHEST),
-            VariableKind::Prismatic => (ProfileBasis::Travel(range), 2.0 * (range[1] - range[0]) / HIGHEST),
-        };
+        let basis = kind.either(ProfileBasis::Turn, ProfileBasis::Travel(range));
+        let period = kind.either(core::f64::consts::TAU, 2.0 * (range[1] - range[0])) / HIGHEST;
         let Some(error) = joint_error(spec, setup, variable) else { continue };
-        let joint = ProfileJoint { variable, error, basis, range };
-        moving.push(joint);
-        offered.extend(covered(&values, gap).map(|range| ProfileJoint { range, ..joint }));
+        match resolved_cycles(&values, period) {
+            Ok(cycles) => offered.push(ProfileJoint { variable, error, basis, range, cycles }),
+            Err(reason) => notes.push(format!("note: no profile of {name}: {reason}")),
+        }
     }
-    (moving, offered)
+    (offered, notes)
+}
+
+/// Returns the number of cycles that sorted joint values resolve, at most that of the highest
+/// harmonic, by its period: between values that are farther apart than half a period, such as those
+/// of a grid, a harmonic acts as one of fewer cycles. Gaps between some of the values do not count.
+fn resolved_cycles(values: &[f64], period: f64) -> Result<usize, String> {
+    let range = values[values.len() - 1] - values[0];
+    if range < period {
+        return Err(format!("it turns by {}° only", digits(range.to_degrees(), 2)));
+    }
+    let mut last = values[0];
+    let mut steps = Vec::new();
+    for value in values {
+        // Visits of one position.
+        if value - last > period / 8.0 {
+            steps.push(value - last);
+            last = *value;
+        }
+    }
+    steps.sort_unstable_by(f64::total_cmp);
+    let resolved = period / (2.0 * steps[steps.len() / 2]);
+    match (HIGHEST * resolved.min(1.0)) as usize {
+        0 => Err(format!("its rows are at {} positions only", steps.len() + 1)),
+        cycles => Ok(cycles),
+    }
 }
 
 /// Returns the constant error of a joint as an unknown: one of the [`number_terms`], the last
@@ -174,31 +189,6 @@ fn joint_error(spec: &Spec, setup: &Setup, variable: usize) -> Option<Unknown> {
     let first = setup.description.sources.len() - numbers.len();
     let number = numbers.iter().position(|term| term.site == ErrorSite::Joint(variable))?;
     Some(Unknown::Magnitude(first + number))
-}
-
-/// Returns the longest stretch of sorted joint values without a gap wider than a period of the
-/// highest harmonic. Harmonics are arbitrary in such a gap. Returns none if the stretch is shorter
-/// than the period, or has less than nine tenths of the values.
-fn covered(values: &[f64], gap: f64) -> Option<[f64; 2]> {
-    let stretch = values.chunk_by(|a, b| b - a <= gap).max_by_key(|stretch| stretch.len())?;
-    let range = [stretch[0], stretch[stretch.len() - 1]];
-    let is_enough = stretch.len() as f64 >= COVERED * values.len() as f64;
-    (is_enough && range[1] - range[0] > gap).then_some(range)
-}
-
-/// States what is missing for profiles of these joints, if anything.
-fn missing(rows: &[Observation], joints: &[ProfileJoint]) -> Option<String> {
-    let (have, needed) = (ProfileData::of_rows(rows), ProfileData::needed(joints));
-    (!have.suffices(needed)).then(|| {
-        format!(
-            "{} joints need {} independent numbers at {} configurations, and the rows have {} at {}",
-            joints.len(),
-            needed.numbers,
-            needed.configurations,
-            have.numbers,
-            have.configurations
-        )
-    })
 }
 
 impl FoundProfiles {

@@ -102,6 +102,8 @@ pub struct Report {
     pub terms: Vec<TermGain>,
     /// Number of groups of terms that were tried.
     pub tried: usize,
+    /// Families that have them, by their names in `--terms`.
+    pub families: String,
     /// Profiles of joints; none if they were not tried, or do not reduce the cross-validation error
     /// significantly.
     pub profiles: Option<JointProfiles>,

@@ -17,6 +17,9 @@ use crate::data::Data;
 use abbe_study::number::digits;
 use abbe_study::{Notes, mistake};
 
+/// Share of the prior of constant terms that are held at zero.
+const HELD: f64 = 1e-9;
+
 /// Result of the fit.
 pub(super) struct Solved<'a> {
     /// Model with only base and tool unknown, and its solution.
@@ -77,9 +80,14 @@ pub(super) fn solve<'a>(
             *prior = own.declared.standard_deviation;
         }
         let first = priors.len() - terms.len();
-        for (prior, term) in priors[first..].iter_mut().zip(terms).filter(|_| share > 0.0) {
-            // Richer terms have 1 mrad, or 1 mm per metre of arm.
-            let share = if term.basis == Basis::One { share } else { share.min(1e-3) };
+        for (prior, term) in priors[first..].iter_mut().zip(terms) {
+            // Richer terms have 1 mrad, or 1 mm per metre of arm; constants are held with the
+            // others.
+            let share = match term.basis {
+                Basis::One => share.max(HELD),
+                _ if share > 0.0 => share.min(1e-3),
+                _ => 1e-3,
+            };
             *prior = Some(share * term.scale(setup));
         }
         let (at, scaled) = (embedded(&simple, &simple_x, model), prior.scaled(model));

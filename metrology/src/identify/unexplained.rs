@@ -9,6 +9,7 @@ use super::found_model::FoundModel;
 use super::setup::Setup;
 use super::solve::Solved;
 use super::spec_writer::DIGITS;
+use abbe_study::calibration::random_sources;
 
 /// Normal quantile `Φ⁻¹(0.95)`.
 const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
@@ -48,9 +49,8 @@ pub(super) fn unexplained(
 
 /// Returns the mean variance of the tool point caused by the random sources.
 fn random_variance(setup: &Setup, rows: &[&Observation]) -> Result<f64, Failure> {
-    let mut random = unknown_sources(setup);
     // The fit has found the values of tolerances.
-    random.retain(|(source, _)| !setup.description.sources[*source].class.can_be_compensated());
+    let random = random_sources(setup.description);
     let model = setup.real.with(random.iter().map(|(source, _)| Unknown::Magnitude(*source)).collect());
     let mut at = model.at(&vec![0.0; random.len()]);
     let (mut sum, mut count) = (0.0, 0.0_f64);

@@ -1,40 +1,86 @@
-//! Fits base and tool in closed form.
+//! Fits base and tool in closed form, or from there by least squares.
 //!
 //! The measurements are `M_i = X P_i Y` with predicted poses `P_i`. The rotations between rows do
 //! not depend on Y: `log(M_i M_jᵀ) = R_X log(P_i P_jᵀ)`. So `R_X` is the rotation between two sets
 //! of vectors, `R_Y` the mean of the remaining rotations, and both translations follow from linear
-//! equations. With positions alone, the tool point and the base are fitted alternately.
+//! equations. With positions alone, the tool point and the base are fitted alternately, which
+//! converges slowly, then both together: with `x_i = X P_i y` and the rotation `R_i` of `X P_i`,
+//! `δx_i = δθ × (x_i − c) + δb + R_i δy` about the centroid c (Levenberg and Marquardt).
 
 use abbe::Pose;
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, SMatrix, SVector, Vector3};
 
-/// Number of alternating fits of tool point and base.
-const TURNS: usize = 12;
+/// Number of alternating fits of tool point and base at the start.
+const TURNS: usize = 3;
 
-/// Returns the predicted poses with base, tool or both fitted, and the fitted tool relative to that
-/// of the spec.
+/// Largest number of steps of both together.
+const STEPS: usize = 30;
+
+/// Returns the predicted poses with base, tool or both fitted; and the fitted pose of `F_0` in the
+/// frame of the rows and that of the tool in the tool frame of the spec.
 pub(super) fn registered(
     predicted: &[Pose],
     measured: &[Pose],
     oriented: bool,
     lever: f64,
     [base, tool]: [bool; 2],
-) -> Option<(Vec<Pose>, Pose)> {
+) -> Option<(Vec<Pose>, [Pose; 2])> {
     let (moved, tool) = match (base, tool, oriented) {
         (false, false, _) => (predicted.to_vec(), Pose::IDENTITY),
         (true, false, _) => (with_base(predicted, measured, oriented, lever)?, Pose::IDENTITY),
         (false, true, _) => with_tool(predicted, measured, oriented)?,
         (true, true, true) => with_base_and_tool(predicted, measured)?,
-        (true, true, false) => {
-            let (mut moved, mut tool) = (with_base(predicted, measured, false, lever)?, Pose::IDENTITY);
-            for _ in 0..TURNS {
-                let (next, step) = with_tool(&moved, measured, false)?;
-                (moved, tool) = (with_base(&next, measured, false, lever)?, tool.then(&step));
-            }
-            (moved, tool)
-        }
+        (true, true, false) => with_base_and_point(predicted, measured, lever)?,
     };
-    moved.iter().all(|pose| pose.0.as_flattened().iter().all(|x| x.is_finite())).then_some((moved, tool))
+    let base = moved.first()?.then(&predicted.first()?.then(&tool).inverse());
+    let mut numbers = moved.iter().flat_map(|pose| pose.0.as_flattened());
+    numbers.all(|x| x.is_finite()).then_some((moved, [base, tool]))
+}
+
+/// Returns `X P_i Y` with a translation Y, fitted to positions, and Y.
+fn with_base_and_point(predicted: &[Pose], measured: &[Pose], lever: f64) -> Option<(Vec<Pose>, Pose)> {
+    let (mut moved, mut tool) = (with_base(predicted, measured, false, lever)?, Pose::IDENTITY);
+    for _ in 0..TURNS {
+        let (next, step) = with_tool(&moved, measured, false)?;
+        (moved, tool) = (with_base(&next, measured, false, lever)?, tool.then(&step));
+    }
+    let away = |moved: &[Pose]| -> f64 {
+        moved.iter().zip(measured).map(|(a, b)| (vector(b.0[3]) - vector(a.0[3])).norm_squared()).sum()
+    };
+    let (mut squares, mut damping) = (away(&moved), 1e-3);
+    for _ in 0..STEPS {
+        let centre = moved.iter().map(|pose| vector(pose.0[3])).sum::<Vector3<f64>>() / moved.len() as f64;
+        let (mut normal, mut right) = (SMatrix::<f64, 9, 9>::zeros(), SVector::<f64, 9>::zeros());
+        for (moved, measured) in moved.iter().zip(measured) {
+            let mut rows = SMatrix::<f64, 3, 9>::zeros();
+            let arm = vector(moved.0[3]) - centre;
+            rows.fixed_view_mut::<3, 3>(0, 0).copy_from(&-arm.cross_matrix());
+            rows.fixed_view_mut::<3, 3>(0, 3).copy_from(&Matrix3::identity());
+            rows.fixed_view_mut::<3, 3>(0, 6).copy_from(&rotation(moved));
+            normal += rows.transpose() * rows;
+            right += rows.transpose() * (vector(measured.0[3]) - vector(moved.0[3]));
+        }
+        let diagonal = normal.diagonal();
+        (0..9).for_each(|i| normal[(i, i)] += damping * diagonal[i] + f64::MIN_POSITIVE);
+        let Some(step) = normal.cholesky().map(|root| root.solve(&right)) else { break };
+        let turn = Rotation3::from_scaled_axis(step.fixed_rows::<3>(0).into_owned()).into_inner();
+        let base = pose(&turn, centre - turn * centre + step.fixed_rows::<3>(3));
+        let point = pose(&Matrix3::identity(), step.fixed_rows::<3>(6).into_owned());
+        let next: Vec<Pose> = moved.iter().map(|pose| base.then(pose).then(&point)).collect();
+        let left = away(&next);
+        if left < squares {
+            let is_done = squares - left <= 1e-6 * squares;
+            (moved, tool, squares, damping) = (next, tool.then(&point), left, 0.1 * damping);
+            if is_done {
+                break;
+            }
+        } else if damping > 1e6 {
+            break;
+        } else {
+            damping *= 10.0;
+        }
+    }
+    Some((moved, tool))
 }
 
 fn vector(v: [f64; 3]) -> Vector3<f64> {

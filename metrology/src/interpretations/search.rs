@@ -49,6 +49,8 @@ pub(crate) struct Candidate {
     pub(crate) residual: PoseResidual,
     /// Poses predicted by the spec for this interpretation.
     pub(super) predicted: Vec<Pose>,
+    /// Pose of `F_0` in the frame of the rows, if it is fitted.
+    pub(crate) base: Option<Pose>,
     /// Pose of the fitted tool in the tool frame of the spec, if it is fitted.
     pub(crate) tool: Option<Pose>,
     /// Spread of the observed positions.
@@ -221,7 +223,7 @@ impl<'a> Search<'a> {
             }
             let limit = self.tolerance.limit(seen.spread);
             let both = |[positions, angles]: [f64; 2]| positions + lever * lever * angles;
-            let (changed, predicted, tool) = if !zeros.is_empty() {
+            let (changed, predicted, [base, tool]) = if !zeros.is_empty() {
                 let values: Vec<f64> =
                     predicted.iter().map(|poses| both(squares(poses, &seen.poses, oriented))).collect();
                 let far = |sum: f64, times: f64| (sum.max(0.0) / rows as f64).sqrt() > times * limit;
@@ -243,18 +245,19 @@ impl<'a> Search<'a> {
                     }
                     change => change.clone(),
                 });
-                (changed.collect::<Vec<_>>(), self.with_ends(&parts, ends), None)
+                (changed.collect::<Vec<_>>(), self.with_ends(&parts, ends), [None; 2])
             } else if free.contains(&true) {
                 if !can_be_fitted(&predicted[0], &seen.poses, oriented, free[1], limit) {
                     continue;
                 }
-                let Some((moved, tool)) = registered(&predicted[0], &seen.poses, oriented, lever, free)
+                let Some((moved, [base, tool])) =
+                    registered(&predicted[0], &seen.poses, oriented, lever, free)
                 else {
                     continue;
                 };
-                (joints.to_vec(), moved, free[1].then_some(tool))
+                (joints.to_vec(), moved, [free[0].then_some(base), free[1].then_some(tool)])
             } else {
-                (joints.to_vec(), predicted[0].clone(), None)
+                (joints.to_vec(), predicted[0].clone(), [None; 2])
             };
             let left = squares(&predicted, &seen.poses, oriented);
             let residual = PoseResidual::new(left, rows, oriented, lever, [numbers, fitted]);
@@ -267,7 +270,8 @@ impl<'a> Search<'a> {
                 layout: seen.layout,
                 changes: [&changed[..], ends, &seen.changes].concat(),
             };
-            let candidate = Candidate { interpretation, residual, predicted, tool, spread: seen.spread };
+            let candidate =
+                Candidate { interpretation, residual, predicted, base, tool, spread: seen.spread };
             let share = candidate.share(&self.tolerance);
             // A unit that makes the measurements far larger than the machine is not a candidate
             // either.

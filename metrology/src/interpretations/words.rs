@@ -1,11 +1,13 @@
 //! Describes interpretations as statements, and as questions about a map.
 
-use abbe::VariableKind;
+use abbe::analysis::sampling;
+use abbe::{Pose, VariableKind, rotation_vector};
 use abbe_spec::Spec;
 
 use super::change::Change;
 use super::interpretation::Interpretation;
 use super::pose_format::PoseFormat;
+use super::search::Candidate;
 use abbe_study::number::digits;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -26,6 +28,31 @@ pub(crate) fn interpretation(interpretation: &Interpretation, spec: &Spec) -> St
         changes => parts.extend(changes.iter().map(|one| change(one, spec))),
     }
     parts.join("; ")
+}
+
+/// Describes fitted places of base and tool, each as a sentence.
+pub(crate) fn places(candidate: &Candidate, spec: &Spec) -> Vec<String> {
+    let oriented = candidate.interpretation.layout.is_oriented();
+    let place = |pose: &Pose, is_turned: bool| {
+        let [x, y, z] = pose.0[3].map(|value| digits(value, 6));
+        let vector = rotation_vector(pose);
+        let angle = sampling::norm(vector);
+        let turned = match is_turned {
+            false => String::new(),
+            true if angle < 1e-6 => ", not turned".to_owned(),
+            true => {
+                let [a, b, c] = vector.map(|value| digits(value / angle, 3));
+                format!(", turned by {}° about ({a}, {b}, {c})", digits(angle.to_degrees(), 5))
+            }
+        };
+        format!("({x}, {y}, {z}) {}{turned}", spec.length.symbol())
+    };
+    let base =
+        candidate.base.map(|pose| format!("F_0 stands at {} in the frame of the rows", place(&pose, true)));
+    let tool = candidate
+        .tool
+        .map(|pose| format!("that point is at {} in the frame of the tool", place(&pose, oriented)));
+    base.into_iter().chain(tool).collect()
 }
 
 fn angle(degrees: bool) -> &'static str {

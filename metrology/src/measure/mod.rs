@@ -21,7 +21,7 @@ use serde::Serialize;
 use crate::data::{Data, Instruments, Map, Summary, Table};
 use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_large};
 use crate::running_sums::RunningSums;
-use crate::{Acceptance, AcceptanceVerdict};
+use crate::{Acceptance, AcceptanceVerdict, Judged};
 use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
 use abbe_study::{Machine, Notes, Residual, Residuals, RunRecord, finite, mistake};
 
@@ -42,7 +42,7 @@ pub struct Measure {
     pub map: Map,
     /// Measurements.
     pub data: Data,
-    /// Limits for the errors minus the repeatable sources.
+    /// Limits for the errors.
     pub accept: Acceptance,
 }
 
@@ -68,8 +68,10 @@ pub struct Report {
     pub residual_test: Option<ResidualTest>,
     /// Characteristics of repeated visits.
     pub repeated: Repeated,
-    /// Verdict on the declared limits, if any.
+    /// Verdict on the machine by the declared limits, if any.
     pub accepted: Option<AcceptanceVerdict>,
+    /// Comparison of what the repeatable sources of the spec leave with the same limits.
+    pub agreed: Option<AcceptanceVerdict>,
     /// Rows outside the fitted ranges, and the predicted uncertainty there; none if there are no
     /// such rows.
     pub extrapolated: Option<Extrapolation>,
@@ -161,7 +163,12 @@ impl Measure {
     fn options(&self) -> Vec<(&'static str, String)> {
         let Self { machine, map, data: _, accept } = self;
         let station = if map.is_newly_stationed { "new" } else { "" };
-        machine.options_with([("station", station.to_owned()), ("accept", accept.text(machine.spec.length))])
+        let commands = if map.is_corrected { "corrected" } else { "" };
+        machine.options_with([
+            ("station", station.to_owned()),
+            ("commands", commands.to_owned()),
+            ("accept", accept.text(machine.spec.length)),
+        ])
     }
 
     /// Compares each row with the ideal machine and with the predicted one.
@@ -206,9 +213,18 @@ impl Measure {
         if let Some(warning) = too_large(rms, fitted, &setup) {
             notes.warn(&warning);
         }
-        let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } =
+        let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, repeatable, .. } =
             evaluated.explained;
-        let accepted = accept.verdict("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
+        let predicted = Sizes { mean, standard_error: None, rms, max, p95 };
+        let noise = if map.states_uncertainty() { setup.real.uncertainty.length } else { 0.0 };
+        let judge =
+            |judged, sizes, noise| accept.verdict((judged, "these rows"), &sizes, (noise, configurations));
+        let accepted = match map.is_corrected {
+            true => judge(Judged::Corrected, predicted, noise),
+            false => judge(Judged::Machine, evaluated.norms.into(), noise),
+        };
+        let agreed =
+            if repeatable > 0 && !map.is_corrected { judge(Judged::Model, predicted, 0.0) } else { None };
         notes.go_on()?;
         let residual_test = ResidualTest::new(&setup, map, rows, placed.as_ref())
             .map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
@@ -229,6 +245,7 @@ impl Measure {
             explained: evaluated.explained,
             residual_test,
             accepted,
+            agreed,
             extrapolated,
             repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets_of(0).len() > 1),
             configurations,

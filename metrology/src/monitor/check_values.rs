@@ -11,6 +11,7 @@ use super::vectors::product;
 use super::visits::Visits;
 use crate::data::{Base, Map};
 use crate::identify::{Setup, check_interpretation, check_plausibility};
+use abbe_study::calibration::random_sources;
 use abbe_study::{Notes, Residuals, mistake};
 
 /// Measured minus predicted values of every check, and their derivatives.
@@ -27,6 +28,9 @@ pub(super) struct CheckValues {
     pub(super) residuals: Option<Residuals>,
     /// Number of configurations that are not in all checks and therefore unused.
     pub(super) left_out: usize,
+    /// Mean variance of a value by the instrument and the random sources of the spec, in units of
+    /// the instrument's.
+    pub(super) expected: f64,
     /// Derivative of every value by unknown.
     columns: Vec<Vec<f64>>,
     /// Derivative of the tool point by configuration and unknown.
@@ -42,6 +46,7 @@ impl CheckValues {
         checks: &Checks,
         notes: &mut dyn Notes,
     ) -> Result<(Self, Model<'a>), Diagnostics> {
+        let random = random_sources(manipulator.description());
         let (mut known, mut visits) = (None, Vec::new());
         let mut model = None;
         for (i, check) in checks.list.iter().enumerate() {
@@ -57,7 +62,8 @@ impl CheckValues {
             let known = known.get_or_insert_with(|| Configurations::new(&setup));
             visits.push(Visits::new(check, &setup, known)?);
             let real = Model { stations: vec![Station::at(Pose::IDENTITY)], ..setup.real };
-            let unknowns = real.constants(setup.pose);
+            let mut unknowns = real.constants(setup.pose);
+            unknowns.extend(random.iter().map(|(source, _)| Unknown::Magnitude(*source)));
             model.get_or_insert_with(|| real.with(unknowns));
             notes.progress(i + 1, checks.list.len());
             notes.go_on()?;
@@ -91,6 +97,7 @@ impl CheckValues {
             residuals: None,
             checks: Vec::new(),
             left_out: count - configurations,
+            expected: 1.0,
             columns: vec![Vec::new(); model.unknowns.len()],
             moves: Vec::new(),
             station: Vec::new(),
@@ -113,6 +120,12 @@ impl CheckValues {
             let base = unknowns.filter(|(_, unknown)| matches!(unknown, Unknown::Base(..)));
             numbers.station = orthonormal(base.map(|(k, _)| numbers.columns[k].clone()));
         }
+        let of_sources = numbers.columns[model.unknowns.len() - random.len()..].iter().zip(&random);
+        let squares = of_sources.map(|(column, (_, variance))| {
+            let column = numbers.without_station(column.clone());
+            variance * product(&column, &column)
+        });
+        numbers.expected += squares.sum::<f64>() / numbers.free().max(1) as f64;
         let all = std::mem::take(&mut numbers.checks);
         numbers.checks = all.into_iter().map(|check| numbers.without_station(check)).collect();
         Ok((numbers, model))

@@ -22,7 +22,7 @@ pub struct Finding {
     /// Is true if this error, or an equally good one, belongs to the station or to what is mounted
     /// on the tool instead of the machine.
     pub may_be_outside: bool,
-    /// Kind of change: `drift` or `jump`.
+    /// Kind of change: `drift`, `jump` or `excursion`, a jump that went back.
     pub kind: &'static str,
     /// Time of the change, or of the beginning of the drift, as counted by the calendar.
     pub since: f64,
@@ -44,6 +44,13 @@ pub struct Finding {
     /// Displacement of the tool point at that configuration until the last check, in the length
     /// unit.
     pub moved: f64,
+    /// Date at which an excursion was over.
+    pub until_date: Option<String>,
+    /// Largest displacement of the tool point at that configuration at any check, in the length
+    /// unit.
+    pub farthest: f64,
+    /// Date of that check.
+    pub farthest_date: String,
     /// Time at which the tolerance is exceeded, if there are a tolerance and a drift.
     pub leaves: Option<Exceedance>,
     /// Value of the error at every check, and the value predicted by the change.
@@ -91,12 +98,18 @@ pub(super) fn finding(
     let as_well: Vec<&Candidate> = all[1..].iter().filter(|other| behind(other) < EQUALLY_GOOD).collect();
     let show = |time: f64| checks.calendar.show(time);
     let last = *times.last()?;
+    let away = values.iter().zip(&times).map(|(value, time)| ((value - change.level).abs(), *time));
+    let (farthest, farthest_at) = away.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let leaves = tolerance.and_then(|tolerance| change.reaches(tolerance / error.effect));
     Some(Finding {
         name: error.name.clone(),
         may_be_outside: error.is_placement || as_well.iter().any(|other| other.error.is_placement),
         as_well: as_well.iter().map(|other| other.error.name.clone()).collect(),
-        kind: if change.kind == Kind::Drift { "drift" } else { "jump" },
+        kind: match change.kind {
+            Kind::Drift => "drift",
+            Kind::Jump => "jump",
+            Kind::Excursion => "excursion",
+        },
         since: change.since,
         since_date: show(change.since),
         between: change.between,
@@ -106,6 +119,9 @@ pub(super) fn finding(
         unit: error.unit,
         effect: error.effect,
         moved: change.moved(last).abs() * error.effect,
+        until_date: change.until.map(show),
+        farthest: farthest * error.effect,
+        farthest_date: show(farthest_at),
         leaves: leaves.map(|(time, standard_deviation)| Exceedance {
             time,
             date: show(time),

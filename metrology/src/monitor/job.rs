@@ -46,7 +46,7 @@ impl Monitor {
         let checks = &checks.completed(map, &interpreter)?;
         let (numbers, model) = CheckValues::new(&interpreter, map, checks, notes)?;
         let errors = SingleErrors::new(spec, &model, &numbers);
-        let limit = Limit::new(settings, errors.charts.len() + 1);
+        let limit = Limit::new(settings, errors.charts.len());
         let (charts, left) = charts(&errors, &numbers, &limit);
         let date = |check: usize| checks.calendar.show(checks.list[check].time);
         let alarm = alarm(&charts, &left, date);
@@ -82,6 +82,6 @@ fn alarm(charts: &[Chart], left: &Chart, date: impl Fn(usize) -> String) -> Opti
     let all = || charts.iter().chain([left]);
     let check = all().filter_map(|chart| chart.alarm).min()?;
     let here = all().filter(|chart| chart.alarm == Some(check));
-    let farthest = here.max_by(|a, b| a.average[check].abs().total_cmp(&b.average[check].abs()))?;
+    let farthest = here.max_by(|a, b| a.share(check).total_cmp(&b.share(check)))?;
     Some(Alarm { check, date: date(check), chart: farthest.name.clone() })
 }

@@ -74,7 +74,7 @@ impl Report {
     /// distance from zero.
     pub fn nearest_first(&self) -> Vec<&Chart> {
         let mut charts: Vec<&Chart> = self.charts.iter().collect();
-        let now = |chart: &Chart| chart.average.last().map_or(0.0, |share| share.abs());
+        let now = |chart: &Chart| chart.share(self.dates.len().saturating_sub(1));
         charts.sort_by(|a, b| now(b).total_cmp(&now(a)));
         charts.sort_by_key(|chart| chart.alarm.is_none());
         charts

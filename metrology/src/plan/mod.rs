@@ -9,8 +9,8 @@ mod sets;
 use abbe::analysis::sampling::{closes, range_of};
 use abbe::analysis::{Configuration, Workspace, joint_samples, random_joint_samples};
 use abbe::identify::{
-    Criterion, Design, Failure, Figures, Identifiable, Measurement, Model, Objective, Observation, knowable,
-    optimal, whole,
+    Criterion, Design, Failure, Figures, Identifiable, Measurement, Model, Objective, Observation, Unknown,
+    knowable, optimal, whole,
 };
 use abbe::{Description, Manipulator};
 use abbe_interpreter::Interpreter;
@@ -19,8 +19,8 @@ use abbe_spec::option::{CANDIDATES, SETS};
 
 use crate::data::{Instruments, Map};
 use crate::identify::{
-    Counts, Prior, Setup, WeaklyDetermined, indistinguishable, nothing_readable, readable_configurations,
-    scale_note,
+    Counts, Prior, Setup, WeaklyDetermined, extended, indistinguishable, nothing_readable, own_magnitudes,
+    readable_configurations, redundant, scale_note,
 };
 use abbe_study::workspace::has_range;
 use abbe_study::{Machine, Notes, Study, finite, mistake};
@@ -81,18 +81,23 @@ impl Plan {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, .. } = self;
         map.require_uncertainty("a plan")?;
-        let interpreter = Interpreter::new(machine.spec.clone());
+        // Magnitudes that the spec leaves open are unknowns, as in an identification.
+        let own = own_magnitudes(&machine.spec);
+        let interpreter = Interpreter::new(extended(&machine.spec, &[]));
         let description = interpreter.description();
         let setup = Setup::at_home(&interpreter, map)?;
-        let model = setup.ideal.with(setup.unknowns(false));
+        let magnitudes = (machine.spec.sources.len()..).take(own.len()).map(Unknown::Magnitude);
+        let model = setup.ideal.with(magnitudes.chain(setup.unknowns(false)).collect());
         let fail = |failure: Failure| mistake::whole(&machine.origin, &failure);
+        let mut sizes = model.priors(Prior::DEFAULT_SHARE).map_err(fail)?;
+        sizes.iter_mut().zip(&own).for_each(|(size, own)| *size = own.declared.standard_deviation);
         let used = self.configurations_of_use(&interpreter, description)?;
         let tool_points = model.tool_points(&used).map_err(fail)?;
         // Per coordinate.
         let model_error = self.model_error / 3.0_f64.sqrt();
         let objective = Objective { criterion: Criterion::Variance, used: &tool_points, model_error };
         let Chosen { title, sets, rows, identifiable, design } =
-            self.choose(&interpreter, &setup, &model, objective, notes)?;
+            self.choose(&interpreter, &setup, (&model, &sizes), objective, notes)?;
         let numbers = rows.iter().map(Observation::count).sum::<usize>();
         let Some(design) = design.filter(|_| numbers > identifiable.rank) else {
             let rank = identifiable.rank;
@@ -105,7 +110,7 @@ impl Plan {
         let (observed, own_design) = match &self.choice {
             Choice::Sets(_) => (identifiable.clone(), Some(design.clone())),
             Choice::Optimal { .. } => {
-                let observed = identifiable_from(&model, &rows).map_err(fail)?;
+                let observed = identifiable_from(&model, &rows, &sizes).map_err(fail)?;
                 let own_design = whole(&model, &rows, &observed, &objective, &mut |_, _| {}).map_err(fail)?;
                 (observed, own_design)
             }
@@ -116,7 +121,6 @@ impl Plan {
         };
         let spread = tool_points.deviations(assessed, covariance);
         let spread = Figures::from_norms(spread.into_iter().map(|deviation| deviation.hypot(own)).collect());
-        let sizes = model.priors(Prior::DEFAULT_SHARE).map_err(fail)?;
         let unseen = tool_points.unseen(assessed, |k| sizes[k].unwrap_or(1.0));
         // Effects below a millionth of the instrument's uncertainty are rounding errors.
         let matters =
@@ -151,6 +155,10 @@ impl Plan {
             unseen,
             used: used.len(),
             predicted: Predicted { mean: spread.mean, rms: spread.rms, max: spread.max, p95: spread.p95 },
+            sums: redundant(&model, &observed)
+                .into_iter()
+                .filter(|one| machine.spec.sources.iter().any(|source| source.name == one.name))
+                .collect(),
             groups,
             observations: rows,
         };
@@ -168,7 +176,7 @@ impl Plan {
         &self,
         manipulator: &Interpreter,
         setup: &Setup,
-        model: &Model,
+        (model, sizes): (&Model, &[Option<f64>]),
         objective: Objective<'_>,
         notes: &mut dyn Notes,
     ) -> Result<Chosen, Diagnostics> {
@@ -182,7 +190,7 @@ impl Plan {
                 });
                 let rows = self.map.in_sequence(self.readable(setup, rows.collect())?);
                 let rows = with_nominal_measurements(model, rows.into_iter()).map_err(fail)?;
-                let identifiable = identifiable_from(model, &rows).map_err(fail)?;
+                let identifiable = identifiable_from(model, &rows, sizes).map_err(fail)?;
                 let progress = &mut |done, total| notes.progress(done, total);
                 let design = whole(model, &rows, &identifiable, &objective, progress).map_err(fail)?;
                 Ok(Chosen { title: sets.title.clone(), sets: counts, rows, identifiable, design })
@@ -214,7 +222,7 @@ impl Plan {
                     return Err(mistake::with_help(&self.machine.origin, message, help));
                 }
                 let list = with_nominal_measurements(model, list.into_iter()).map_err(fail)?;
-                let identifiable = identifiable_from(model, &list).map_err(fail)?;
+                let identifiable = identifiable_from(model, &list, sizes).map_err(fail)?;
                 let objective = Objective { criterion: *criterion, ..objective };
                 let progress = &mut |done, total| notes.progress(done, total);
                 let design =
@@ -270,8 +278,13 @@ impl Plan {
     }
 }
 
-fn identifiable_from(model: &Model, rows: &[Observation]) -> Result<Identifiable, Failure> {
-    knowable(model, rows, &vec![0.0; model.unknowns.len()], &model.priors(Prior::DEFAULT_SHARE)?)
+/// Returns what these rows determine of unknowns of these sizes.
+fn identifiable_from(
+    model: &Model,
+    rows: &[Observation],
+    sizes: &[Option<f64>],
+) -> Result<Identifiable, Failure> {
+    knowable(model, rows, &vec![0.0; model.unknowns.len()], sizes)
 }
 
 /// Fills in the measurements of the nominal machine.

@@ -1,11 +1,11 @@
 //! Report of a plan.
 
-use abbe::identify::{Model, Observation};
+use abbe::identify::{Model, Observation, Unknown};
 use serde::Serialize;
 
 use super::sets::SetSize;
 use crate::data::{Map, Table};
-use crate::identify::{Counts, Indistinguishable, WeaklyDetermined};
+use crate::identify::{Counts, Indistinguishable, Redundant, WeaklyDetermined};
 
 /// Planned measurement, and the uncertainty predicted for it.
 #[derive(Clone, Debug, Serialize)]
@@ -48,6 +48,8 @@ pub struct Report {
     /// Errors that move the tool point at these configurations but that the rows cannot determine.
     /// `predicted` excludes them.
     pub unseen: Vec<UndeterminedError>,
+    /// Magnitudes that others stand for: the rows determine only their sum.
+    pub sums: Vec<Redundant>,
     /// Combinations of unknowns that cannot be distinguished, with the reason.
     #[serde(skip)]
     pub groups: Vec<Indistinguishable>,
@@ -88,7 +90,7 @@ pub struct UndeterminedError {
     /// Root mean square displacement of the tool point per `per`, beyond the equivalent kept
     /// errors, in the length unit.
     pub moves: f64,
-    /// Unit of the error: `mrad`, or the length unit.
+    /// Unit of the error: `mrad`, the length unit, or empty for a magnitude.
     pub per: &'static str,
 }
 
@@ -96,7 +98,11 @@ impl UndeterminedError {
     pub(super) fn new(model: &Model, k: usize, moves: f64) -> Self {
         let unknown = model.unknowns[k];
         let length = model.manipulator.description().length.symbol();
-        let (moves, per) = if unknown.is_rotation() { (moves * 1e-3, "mrad") } else { (moves, length) };
+        let (moves, per) = match unknown {
+            Unknown::Magnitude(_) => (moves, ""),
+            _ if unknown.is_rotation() => (moves * 1e-3, "mrad"),
+            _ => (moves, length),
+        };
         Self { name: model.name(unknown), moves, per }
     }
 }

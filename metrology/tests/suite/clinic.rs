@@ -3,6 +3,7 @@
 
 use abbe::identify::Loss;
 use abbe_metrology::Acceptance;
+use abbe_metrology::compensate::Compensate;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::{Family, Identify, Prior, Settings};
 use abbe_metrology::measure::Measure;
@@ -196,10 +197,12 @@ compliance = { diagonal = [0, 0, 0, 0, "3e-10/(N*mm)", "3e-10/(N*mm)"] }
         let text = report.found.identified_map(&job.map, &nominal.spec, "found.map.toml").unwrap();
         let found = Map::parse("found.map.toml", &text, &nominal.spec).unwrap();
         assert!(text.contains("[placement]\ntargets"), "{text}");
-        // The couch stays level, so that rows hardly tell their height from that of the base.
+        // The couch stays level, so that rows hardly tell where along and above it the targets are
+        // from what the arm does: places that are far from where they are stated are doubted.
+        let is_doubted = report.notes.iter().any(|note| note.contains("from the stated one"));
         for (found, designed) in found.targets().iter().zip(job.map.targets()) {
-            let apart = (found[0] - designed[0]).hypot(found[2] - designed[2]);
-            assert!(apart < 8.0, "{found:?} {designed:?}");
+            let apart = found.iter().zip(designed).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            assert!(apart < 20.0 || is_doubted, "{found:?} {designed:?} {:?}", report.notes);
         }
         let test = report.test.unwrap();
         (test.before.mean, test.after.mean)
@@ -214,6 +217,32 @@ compliance = { diagonal = [0, 0, 0, 0, "3e-10/(N*mm)", "3e-10/(N*mm)"] }
     let (_, without) = figures(&blind(&data), &blind(&test));
     println!("{before:.2} mm as delivered, {after:.3} with the load cell, {without:.3} without");
     assert!(before > 3.0 && after < 0.03 && without > 5.0 * after, "{before} {after} {without}");
+}
+
+/// Joints that the map fixes are held, and what is written is what the report says is left: the
+/// positioner with roll and pitch at rest brings its treatment point to where it should be.
+#[test]
+fn joints_that_the_map_fixes_are_held() {
+    let machine = pps();
+    let map = shipped_map(&machine);
+    let at = Places::Samples(12);
+    let job = Simulate {
+        machine: machine.clone(),
+        map: map.clone(),
+        at,
+        noise: Some(0.0),
+        outliers: 0.0,
+        random: false,
+        seed: 1,
+    };
+    let observations = job.run(&mut ()).unwrap().observations;
+    let data =
+        Data { file: "simulated".to_owned(), observations, stations: vec![String::new()], ..Data::default() };
+    let job = Compensate { machine, map, data, poses: false, tolerance: 1e-3 };
+    let report = job.run(&mut ()).unwrap();
+    assert_eq!(report.held, ["q5", "q6"]);
+    assert!(report.before.max > 1.0 && report.after.max < 1e-3, "{:?} {:?}", report.before, report.after);
+    assert!(report.rows.iter().all(|row| row.corrected.q[4..] == [0.0, 0.0]), "{:?}", report.rows[0].q);
 }
 
 struct Collected<'n>(&'n mut Vec<String>);

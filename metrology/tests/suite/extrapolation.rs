@@ -1,8 +1,10 @@
 //! Uncertainty of an identified machine outside the fitted ranges, compared with the scatter of
 //! many identifications.
 
-use abbe::Manipulator;
+use std::sync::Arc;
+
 use abbe::identify::Loss;
+use abbe::{Class, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
@@ -29,8 +31,12 @@ fn map() -> Map {
 }
 
 fn simulated(at: Places, seed: u64) -> Data {
+    simulated_with(ERRORS, at, seed)
+}
+
+fn simulated_with(errors: &str, at: Places, seed: u64) -> Data {
     let job = Simulate {
-        machine: ur5_with(ERRORS),
+        machine: ur5_with(errors),
         map: map(),
         at,
         noise: None,
@@ -53,6 +59,10 @@ fn measured(samples: usize, near: bool, seed: u64) -> Data {
 
 /// Identifies the machine near home; returns the report and the machine of the written spec.
 fn identified(seed: u64, test: Option<Data>) -> (Report, Machine) {
+    identified_from(measured(80, true, seed), test)
+}
+
+fn identified_from(data: Data, test: Option<Data>) -> (Report, Machine) {
     let settings = Settings {
         loss: Loss::Squares,
         prior: Prior::default(),
@@ -64,7 +74,7 @@ fn identified(seed: u64, test: Option<Data>) -> (Report, Machine) {
     let job = Identify {
         machine: ur5(),
         map: map(),
-        data: measured(80, true, seed),
+        data,
         test,
         terms: Vec::new(),
         harmonics: Vec::new(),
@@ -78,8 +88,13 @@ fn identified(seed: u64, test: Option<Data>) -> (Report, Machine) {
     (report, written)
 }
 
+/// Returns the machine of the written spec without its random sources, which do not change between
+/// identifications.
 fn found(seed: u64) -> Machine {
-    identified(seed, None).1
+    let mut machine = identified(seed, None).1;
+    let sources = Arc::make_mut(&mut machine.spec).sources.iter_mut();
+    sources.filter(|source| source.class != Class::Repeatable).for_each(|source| source.enabled = false);
+    machine
 }
 
 /// Holds that `identify` states the same deviations of test rows outside the fitted ranges as
@@ -167,4 +182,33 @@ fn stated_uncertainty_agrees_with_the_scatter_outside_the_ranges() {
     );
     let mut quiet = RecordedNotes::default();
     assert!(measure(&near, &mut quiet).is_none() && quiet.0.is_empty(), "{:?}", quiet.0);
+}
+
+/// Holds that the stated deviation of the tool point within the ranges is what unseen rows show,
+/// although the model lacks the errors of all gears.
+#[test]
+fn stated_uncertainty_within_the_ranges_agrees_with_unseen_rows() {
+    for phase in 0..4 {
+        let gear = |j: i32| {
+            let error =
+                format!("0.2 mrad * sin({}*q{j} + {}) + 0.1 mrad * sin(11*q{j})", 2 + j % 3, j * phase);
+            format!(
+                "\n[[source]]\nname = \"gear {j}\"\nclass = \"repeatable\"\njoint = \"q{j}\"\nerror = \"{error}\"\n"
+            )
+        };
+        let errors = ERRORS.to_owned() + &(1..=6).map(gear).collect::<String>();
+        let part = |samples: usize, share: f64| {
+            let mut data = simulated(Places::Samples(samples), 7);
+            data.observations.iter_mut().for_each(|row| row.q.iter_mut().for_each(|q| *q *= share));
+            simulated_with(&errors, Places::Rows(data), 11 + samples as u64)
+        };
+        // The last row is outside the ranges.
+        let (mut unseen, beyond) = (part(131, 0.29), part(2, 0.6));
+        unseen.observations.extend(beyond.observations.into_iter().take(1));
+        let (report, _) = identified_from(part(100, 0.3), Some(unseen));
+        let stated = report.extrapolated.unwrap().standard_deviation.unwrap().within;
+        let seen = report.test.unwrap().after.rms;
+        println!("{phase}: {stated:.4} stated, {seen:.4} seen");
+        assert!((0.7..1.3).contains(&(stated / seen)), "{stated} {seen}");
+    }
 }

@@ -2,22 +2,21 @@
 //!
 //! A view (`views`) builds the document of a job from its numbers, and knows no renderer. A
 //! renderer (`terminal`, `html`) shows any document, and knows no job. `section` has the parts,
-//! `table` tables, `list` short lists of names, `plain` signs in ASCII, and `worded` the sentences
-//! beside the numbers.
+//! `table` tables, and `plain` signs in ASCII. Here are short lists of names, and the sentences of
+//! a document by name, beside the numbers of its report.
 
-mod list;
 mod plain;
 mod section;
 mod table;
-mod worded;
 
-use abbe_study::RunRecord;
-
-pub(crate) use list::{first, joined};
 pub use plain::plain;
 pub(crate) use section::{Block, Card, Depth, Figure, Section};
 pub(crate) use table::Table;
-pub use worded::Worded;
+
+use std::collections::BTreeMap;
+
+use abbe_study::RunRecord;
+use serde::Serialize;
 
 /// Report of a job, in sections.
 #[derive(Clone, Debug, Default)]
@@ -101,5 +100,43 @@ impl Document {
     pub fn statements(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let statements = self.sections.iter().flat_map(Section::statements);
         statements.map(|statement| (statement.name, statement.text.as_str()))
+    }
+}
+
+/// Returns the first items of a list, separated by commas, and the number of the others.
+pub(crate) fn first<T: AsRef<str>>(items: &[T], shown: usize) -> String {
+    let names = joined(items.iter().take(shown));
+    match items.len().saturating_sub(shown) {
+        0 => names,
+        more => format!("{names} and {more} more"),
+    }
+}
+
+/// Returns items separated by commas.
+pub(crate) fn joined<T: AsRef<str>>(items: impl IntoIterator<Item = T>) -> String {
+    let items: Vec<T> = items.into_iter().collect();
+    items.iter().map(AsRef::as_ref).collect::<Vec<&str>>().join(", ")
+}
+
+/// A report with the sentences of its document, which JSON and Python have.
+#[derive(Debug, Serialize)]
+pub struct Worded<'r, R> {
+    #[serde(flatten)]
+    report: &'r R,
+    /// Sentences by their stable names.
+    statements: BTreeMap<&'static str, String>,
+}
+
+impl Document {
+    /// Adds the sentences to the numbers of the report: the answer as `answer`, and each statement
+    /// by its name. Statements of one name are one text.
+    pub fn worded<'r, R>(&self, report: &'r R) -> Worded<'r, R> {
+        let mut statements = BTreeMap::from([("answer", self.first_line())]);
+        for (name, text) in self.statements() {
+            let words: &mut String = statements.entry(name).or_default();
+            let separator = if words.is_empty() { "" } else { " " };
+            *words += &format!("{separator}{}", text.replace(abbe_study::number::NO_BREAK, " "));
+        }
+        Worded { report, statements }
     }
 }

@@ -92,7 +92,10 @@ fn all(report: &Report) -> Scene {
     let found = report.finding.as_ref().and_then(|finding| named(&finding.name));
     let first =
         found.map(|chart| chart.name.as_str()).or(report.alarm.as_ref().map(|alarm| alarm.chart.as_str()));
-    let percents = |chart: &Chart| over_time(chart.average.iter().map(|share| 100.0 * share), report);
+    let percents = |chart: &Chart| {
+        let shares = if chart.average.is_empty() { &chart.single } else { &chart.average };
+        over_time(shares.iter().map(|share| 100.0 * share), report)
+    };
     let others = charts().filter(|chart| Some(chart.name.as_str()) != first).map(percents).collect();
     let time = ends(report.times.iter().copied());
     let limits = [100.0, -100.0].map(|limit| time.map(|at| [at, limit]).to_vec());
@@ -104,7 +107,8 @@ fn all(report: &Report) -> Scene {
         marks.push(Mark::line(CHANGED, 2.5, percents(chart)).named(&chart.name));
     }
     let panel = panel(280.0, "average as share of the limit", "%", marks, report);
-    let caption = "Moving averages as shares of their limits; beyond ±100 % there is an alarm.";
+    let caption = "Moving averages, and the residual change of each check, as shares of their limits; beyond ±100 % \
+         there is an alarm.";
     Scene::new("All charts", 1, vec![panel]).captioned(caption)
 }
 

@@ -4,8 +4,7 @@ use abbe_metrology::measure::Report;
 use abbe_spec::Spec;
 
 use super::cloud::views;
-use super::figure_range::FigureRange;
-use super::histogram::{COLOURS, NamedValues, panel};
+use super::histogram::{COLOURS, FigureRange, NamedValues, panel};
 use super::residuals::{self, ErrorNames, Residual};
 use super::{norm, step};
 use crate::scene::{Axis, Colour, Mark, Scene, ends, with_margin};

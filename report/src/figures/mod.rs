@@ -8,7 +8,6 @@
 pub(crate) mod charts;
 mod cloud;
 pub(crate) mod distances;
-mod figure_range;
 mod histogram;
 mod manipulator;
 pub(crate) mod measured;

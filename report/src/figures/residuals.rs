@@ -5,8 +5,7 @@ use abbe_spec::Spec;
 use abbe_study::number::short;
 use abbe_study::study_file::Over;
 
-use super::figure_range::FigureRange;
-use super::histogram::{COLOURS, NamedValues, panel};
+use super::histogram::{COLOURS, FigureRange, NamedValues, panel};
 use super::{Quantity, norm, step, thinned};
 use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends, with_margin};
 

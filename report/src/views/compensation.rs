@@ -7,7 +7,7 @@ use abbe_spec::Spec;
 use abbe_study::number::{NO_BREAK, counted, error_decimals, error_unit, fixed, length, short, visible};
 
 use super::shared::{data_rows, extrapolated, first_rows};
-use crate::document::{Card, Document, Section, Table, Verdict};
+use crate::document::{Card, Document, Section, Table, Verdict, joined};
 use crate::figures::distances;
 
 /// Number of reasons on the first screen.
@@ -24,10 +24,16 @@ pub fn compensation(spec: &Spec, machine: &Description, map: &Map, report: &Repo
         kind: "Corrected commands",
         machine: machine.title.to_string(),
         title: map.title.clone(),
-        headline: format!("{done} of {all} commands corrected to within {within}"),
+        headline: match has_sources(machine) {
+            true => format!("{done} of {all} commands corrected to within {within}"),
+            false => format!("nothing to correct in {all} commands"),
+        },
         verdict: Some(Verdict {
             is_met: report.complete(),
-            text: format!("{done} of {all} commands corrected"),
+            text: match has_sources(machine) {
+                true => format!("{done} of {all} commands corrected"),
+                false => "The spec has no errors to correct".to_owned(),
+            },
         }),
         panel: "Errors at a command",
         sections: vec![
@@ -44,6 +50,11 @@ pub fn compensation(spec: &Spec, machine: &Description, map: &Map, report: &Repo
     }
 }
 
+/// Returns whether there is anything to compensate.
+fn has_sources(machine: &Description) -> bool {
+    machine.sources.iter().any(|source| source.class == Class::Repeatable)
+}
+
 fn errors(report: &Report) -> Table {
     let (factor, unit) = error_unit(report.length);
     let columns = ["tool point", &format!(">mean {unit}"), ">rms", ">max", ">max orientation mrad"];
@@ -51,12 +62,18 @@ fn errors(report: &Report) -> Table {
         let [mean, rms, max] = [size.mean, size.rms, size.max].map(|value| visible(factor * value, 4));
         [name.to_owned(), mean, rms, max, visible(1e3 * size.angle_max, 4)]
     };
-    Table::new("", columns).rows([("as commanded", &report.before), ("corrected", &report.after)].map(row))
+    let mut table = Table::new("", columns)
+        .rows([("as commanded", &report.before), ("corrected", &report.after)].map(row));
+    if let Some(deviation) = report.deviation {
+        let sigma = visible(factor * deviation, 4);
+        table.row(["known to (1 σ)".to_owned(), String::new(), sigma, String::new(), String::new()]);
+    }
+    table
 }
 
 fn facts(machine: &Description, report: &Report) -> Vec<(&'static str, String)> {
     let mut facts = Vec::new();
-    if !machine.sources.iter().any(|source| source.class == Class::Repeatable) {
+    if !has_sources(machine) {
         let nothing = "the spec has no repeatable source: there is nothing to compensate";
         facts.push(("Sources", nothing.to_owned()));
     }
@@ -76,6 +93,20 @@ fn facts(machine: &Description, report: &Report) -> Vec<(&'static str, String)> 
             turn.to_degrees()
         );
         facts.push(("Far", text));
+    }
+    if let Some((line, angles)) = &report.row_summary.most_turned {
+        let rows = counted(report.row_summary.turned, "row", "rows");
+        let [before, after] = angles.map(|angle| visible(1e3 * angle, 4));
+        let text = format!(
+            "the orientation of {rows} is farther off than without correction, most in line {line}: {after} \
+             mrad, {before} before. The position of the tool point has priority"
+        );
+        facts.push(("Turned", text));
+    }
+    if !report.held.is_empty() {
+        let names = joined(report.held.iter().map(String::as_str));
+        let text = format!("{names}, as in the map: columns for them there would let them correct, too");
+        facts.push(("Held", text));
     }
     if report.mobility < 6 {
         let text = format!(

@@ -43,8 +43,12 @@ fn conclusion(report: &Report) -> String {
                             digits(angle.to_degrees(), 3)
                         )
                     });
-                    let [left, within] = [one.residual, report.within].map(|value| digits(value, 3));
-                    format!("the closest leaves {left} {length}{turns}, and the limit is {within} {length}")
+                    let [left, spread, within] =
+                        [one.residual, one.spread, report.within].map(|value| digits(value, 3));
+                    format!(
+                        "the closest leaves {left} {length}{turns} where they spread by {spread} {length}, and \
+                         the limit is {within} {length}"
+                    )
                 });
             return format!("No interpretation fits: {nearest}. {}", advice(report));
         }

@@ -1,5 +1,6 @@
 //! Measurement: acceptance, accuracy, repeatability, and the explained share.
 
+use abbe_metrology::Judged;
 use abbe_metrology::data::Map;
 use abbe_metrology::measure::{InstrumentErrors, MeanAndMax, Report};
 use abbe_spec::Spec;
@@ -42,6 +43,7 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report) -> Document {
             first.facts(facts(report)),
             Section::page("").cards(cards(report)),
             Section::page("Figures").figures(measured::scenes(report, spec)),
+            rule(report),
             fitted(report),
             standards(report),
             explained(report),
@@ -135,6 +137,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         ),
     };
     facts.push(("Explained", text));
+    facts.extend(report.agreed.iter().map(|verdict| ("Model", accepted(verdict, report.unit).text)));
     if report.instruments.iter().any(|one| one.unit == "px") {
         let (mean, max) = (show(report, explained.left_mean), show(report, explained.left_max));
         facts.push(("Distance", format!("corner to line of sight {mean} mean, {max} max")));
@@ -169,6 +172,28 @@ fn cards(report: &Report) -> Vec<Card> {
         note: format!("{} independent configurations", report.configurations),
     };
     norms.chain([rows]).collect()
+}
+
+/// States the rule by which the machine was accepted or not.
+fn rule(report: &Report) -> Section {
+    let rule = report.accepted.as_ref().map(|verdict| {
+        let target = match verdict.judged {
+            Judged::Corrected => {
+                "where the machine with the errors of its spec should be with these commands"
+            }
+            _ => "the ideal machine",
+        };
+        let rule = match verdict.limits.iter().all(|limit| limit.uncertainty > 0.0) {
+            true => {
+                "A figure is accepted if it is within its limit by at least the expanded uncertainty of the \
+                 measurement, and rejected if beyond by more than that (ISO 14253-1, JCGM 106: a risk of at \
+                 most 5 %, one-sided, by the stated uncertainty of the instrument)."
+            }
+            false => "The uncertainty of the measurement is not stated, and not counted.",
+        };
+        format!("Errors from {target} are judged. {rule}")
+    });
+    Section::full("Decision rule").state("decision_rule", rule)
 }
 
 /// States what was fitted to the rows, and is therefore not among their errors.

@@ -54,11 +54,20 @@ fn last(values: &[f64]) -> f64 {
     values.last().copied().unwrap_or_default()
 }
 
+fn last_check(report: &Report) -> usize {
+    report.dates.len().saturating_sub(1)
+}
+
 /// Formats the last value of a chart, its unit, and the check of its alarm.
 fn values(report: &Report, chart: &Chart) -> [String; 4] {
     let (factor, unit) = angle_in_mrad(chart.unit);
     let alarm = chart.alarm.map_or(String::new(), |check| report.dates[check].clone());
-    [digits(factor * last(&chart.values), 3), unit.to_owned(), percent(last(&chart.average), 1.0), alarm]
+    [
+        digits(factor * last(&chart.values), 3),
+        unit.to_owned(),
+        percent(chart.share(last_check(report)), 1.0),
+        alarm,
+    ]
 }
 
 fn nearest(report: &Report) -> Table {
@@ -76,7 +85,7 @@ fn charts(report: &Report) -> Table {
     let all = report.nearest_first();
     let hidden = all.len().saturating_sub(LISTED);
     let shown = all.into_iter().take(LISTED).chain([&report.left]);
-    let caption = "Of the limit: the weighted average of the chart";
+    let caption = "Of the limit: the last check, or the weighted average of the chart";
     let mut table = Table::new(caption, columns).rows(shown.map(|chart| {
         let [value, unit, share, alarm] = values(report, chart);
         [chart.name.clone(), first(&chart.indistinguishable, NAMED), value, unit, share, alarm]
@@ -111,7 +120,7 @@ fn cards(report: &Report) -> Vec<Card> {
     };
     let nearest = report.nearest_first().first().map(|chart| Card {
         name: "Nearest to its limit",
-        value: percent(last(&chart.average).abs(), 1.0),
+        value: percent(chart.share(last_check(report)), 1.0),
         note: format!("of the limit: {}", chart.name),
     });
     [checks, configurations].into_iter().chain(nearest).collect()
@@ -149,10 +158,12 @@ fn watched(report: &Report) -> Section {
         .state(
             "false_alarms",
             format!(
-                "{} EWMA charts with a weight of {} for the new check and limits at {} standard deviations. \
-                 Together they raise on average no more than {rate}, if the machine does not change and \
-                 checks are independent.",
+                "{} charts compare each check with those before it; {} of them also have a moving average \
+                 (EWMA) with a weight of {} for the new check and limits at {} standard deviations. Together \
+                 they raise on average no more than {rate}, if the machine does not change and checks are \
+                 independent.",
                 report.charts.len() + 1,
+                report.charts.len(),
                 trimmed(report.limit.lambda, 3),
                 fixed(report.limit.limit, 3),
             ),
@@ -201,11 +212,16 @@ fn changed(section: Section, report: &Report, finding: &Finding) -> Section {
              now.",
             show(*moved)
         ),
-        _ => format!(
-            "{name} jumped by {value} at {since_date} ({between}). At the most sensitive configuration the \
-             tool point moved by {size_there} ± {sigma_there} µm. If the machine was serviced then, restart \
-             with `{SINCE}`."
-        ),
+        _ => {
+            let back = finding.until_date.as_ref().map(|until| format!(" and was back at {until}"));
+            let restart = format!(" If the machine was serviced then, restart with `{SINCE}`.");
+            format!(
+                "{name} jumped by {value} at {since_date} ({between}){}. At the most sensitive configuration \
+                 the tool point moved by {size_there} ± {sigma_there} µm.{}",
+                back.as_deref().unwrap_or_default(),
+                if back.is_none() { &*restart } else { "" }
+            )
+        }
     };
     let as_well = (!finding.as_well.is_empty())
         .then(|| format!("Equally good explanations: {}.", first(&finding.as_well, 8)));
@@ -225,7 +241,12 @@ fn leaving(report: &Report, finding: &Finding, tolerance: f64) -> String {
     let limit = format!("{} {}", trimmed(tolerance, 6), report.length);
     let per = report.calendar.unit();
     match &finding.leaves {
-        _ if finding.moved > tolerance => format!("That exceeds the tolerance of {limit}."),
+        _ if finding.moved.max(finding.farthest) > tolerance => format!(
+            "At {} it was {} {} from where it was before: that exceeds the tolerance of {limit}.",
+            finding.farthest_date,
+            digits(finding.farthest, 3),
+            report.length
+        ),
         Some(leaving) => format!(
             "At this rate the tolerance of {limit} is exceeded at {} ± {} {per}s.",
             leaving.date,

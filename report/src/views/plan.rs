@@ -6,7 +6,7 @@ use abbe_spec::Spec;
 use abbe_spec::option::MODEL_ERROR_LENGTH;
 use abbe_study::number::{digits, error_unit, quantity};
 
-use super::identification::indistinguishable;
+use super::identification::{combination, indistinguishable};
 use crate::document::{Document, Section, Table, first, joined};
 
 /// Number of errors named on the first screen.
@@ -51,6 +51,16 @@ fn facts(map: &Map, report: &Report) -> Vec<(&'static str, String)> {
         let sets: Vec<String> = report.sets.iter().map(|set| format!("{} {}", set.rows, set.name)).collect();
         facts.push(("Sets", first(&sets, 6)));
     }
+    let sums = report.sums.iter().flat_map(|one| {
+        let with = |(other, factor): &(String, f64)| {
+            combination(&[(other.clone(), 1.0), (one.name.clone(), *factor)])
+        };
+        one.acts_as.iter().map(with)
+    });
+    let sums: Vec<String> = sums.collect();
+    if !sums.is_empty() {
+        facts.push(("Sums", format!("{}: these rows determine the sum, not its parts", first(&sums, NAMED))));
+    }
     if !report.unseen.is_empty() {
         let names: Vec<&str> = report.unseen.iter().map(|error| error.name.as_str()).collect();
         let text = "not observable in these rows, but they move the tool point in use";
@@ -58,7 +68,7 @@ fn facts(map: &Map, report: &Report) -> Vec<(&'static str, String)> {
     }
     if !report.weakly_determined.is_empty() {
         let names: Vec<&str> = report.weakly_determined.iter().map(|error| error.name.as_str()).collect();
-        let text = "poorly determined by these rows; an identification would fix them at zero";
+        let text = "poorly determined by these rows; an identification leaves most of their prior";
         facts.push(("Weak", format!("{}: {text}", first(&names, NAMED))));
     }
     facts

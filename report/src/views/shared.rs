@@ -3,7 +3,7 @@
 use abbe::LengthUnit;
 use abbe_metrology::data::{Base, Layout, Map, Summary};
 use abbe_metrology::identify::ResidualDrift;
-use abbe_metrology::{AcceptanceVerdict, LimitCheck};
+use abbe_metrology::{AcceptanceVerdict, Decision, Judged, LimitCheck};
 use abbe_spec::Spec;
 use abbe_spec::option::NamedOption;
 use abbe_study::Extrapolation;
@@ -36,15 +36,35 @@ pub(super) fn p_value(p: f64) -> String {
     if p < 1e-12 { "below 1e-12".to_owned() } else { digits(p, 2) }
 }
 
+/// States the verdict on a machine or its model.
 pub(super) fn accepted(verdict: &AcceptanceVerdict, unit: LengthUnit) -> Verdict {
     let limit = |limit: &LimitCheck| {
         let [value, most] = [limit.value, limit.limit].map(|value| length(value, unit));
-        let more = if limit.met { "" } else { ", exceeded" };
-        format!("{} {value} (limit {most}){more}", limit.figure)
+        let known = match limit.uncertainty {
+            0.0 => String::new(),
+            uncertainty => format!(" ± {}", length(uncertainty, unit)),
+        };
+        let more = match limit.decision {
+            Decision::Accepted => "",
+            Decision::Undecided => ", too near to it",
+            Decision::Rejected => ", exceeded",
+        };
+        format!("{} {value}{known} (limit {most}){more}", limit.figure)
     };
-    let words = if verdict.met { "Accepted" } else { "Not accepted" };
-    let limits: Vec<String> = verdict.limits.iter().map(limit).collect();
-    Verdict { is_met: verdict.met, text: format!("{words} on {}: {}.", verdict.rows, limits.join("; ")) }
+    let (rows, limits) = (verdict.rows, verdict.limits.iter().map(limit).collect::<Vec<_>>().join("; "));
+    let words = match (verdict.judged, verdict.decision) {
+        (Judged::Model, Decision::Accepted) => format!("The model agrees with {rows}"),
+        (Judged::Model, _) => format!("The model does not agree with {rows}"),
+        (_, Decision::Accepted) => format!("Accepted on {rows}"),
+        (_, Decision::Undecided) => format!("Neither accepted nor rejected on {rows}"),
+        (_, Decision::Rejected) => format!("Not accepted on {rows}"),
+    };
+    let how = match verdict.judged {
+        Judged::Model => "",
+        Judged::Machine => ", as built",
+        Judged::Corrected => ", with corrected commands",
+    };
+    Verdict { is_met: verdict.is_met(), text: format!("{words}{how}: {limits}.") }
 }
 
 /// Returns the facts about data files: their rows, and the first of those that cannot be used.

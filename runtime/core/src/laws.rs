@@ -46,7 +46,6 @@
 mod batches;
 mod contract;
 mod derivatives;
-mod differences;
 mod failure;
 mod remainder;
 mod samples;

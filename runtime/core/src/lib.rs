@@ -23,7 +23,6 @@ mod manipulator;
 mod nalgebra_views;
 mod pose;
 mod quantity;
-mod remedy;
 mod scalar;
 mod shared;
 #[doc(hidden)]
@@ -62,7 +61,7 @@ pub use description::{
 pub use distinct::ErrorColumns;
 #[cfg(feature = "std")]
 pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
-pub use error::{Error, MINIMUM_MARGIN};
+pub use error::{Error, MINIMUM_MARGIN, Remedy};
 pub use function::Function;
 
 pub use manipulator::Manipulator;
@@ -70,7 +69,6 @@ pub use manipulator::Manipulator;
 pub use nalgebra_views::{jacobian_view, jacobian_view_dynamic};
 pub use pose::Pose;
 pub use quantity::Quantity;
-pub use remedy::Remedy;
 pub use scalar::{LookupTable, Scalar};
 pub use shared::{List, Text};
 pub use source::{Class, Distribution, Effect, Source, whole};

@@ -7,7 +7,6 @@
 
 mod build;
 mod construct;
-mod cubic;
 mod dimension;
 mod expression;
 mod function;

@@ -2,30 +2,21 @@
 //!
 //! [`Spec`] is the contents of a valid file; `read` creates it from the text.
 
-mod chain_number;
-mod closure;
-mod covariance;
 mod declared;
-mod fitted;
 mod frame;
-mod load;
 mod names;
 mod read;
 mod source;
 mod spec;
 mod tree;
-mod tunable;
 
-pub use chain_number::{ChainNumber, DhConvention, DhNumber};
-pub use closure::{Closure, Loop};
-pub use covariance::{Covariance, Identified};
-pub use declared::{Input, Parameter, Variable};
-pub use fitted::Fitted;
-pub use frame::{Factor, Frame, Matrix};
-pub use load::{Axes, Load, Point};
+pub use declared::{Fitted, Input, Parameter, Variable};
+pub use frame::{ChainNumber, DhConvention, DhNumber, Factor, Frame, Matrix};
 pub use names::{as_identifier, check_name};
 pub use read::keys::{TABLES, rules};
-pub use source::{Beam, Cause, Compliance, Deviation, DeviationCause, Effect, Magnitude, Source, Uncertain};
-pub use spec::Spec;
-pub use tree::Tree;
-pub use tunable::MAGNITUDE;
+pub use source::{
+    Axes, Beam, Cause, Compliance, Covariance, Deviation, DeviationCause, Effect, Identified, Load,
+    Magnitude, Point, Source, Uncertain,
+};
+pub use spec::{MAGNITUDE, Spec};
+pub use tree::{Closure, Loop, Tree};

@@ -1,10 +1,12 @@
 //! Sources: physical errors and their effects on the chain.
+//!
+//! Covariance of the errors of an identified machine.
+//!
+//! Loads on beams and compliances.
 
 use abbe_core::{Class, Component, Distribution};
 
-use super::chain_number::ChainNumber;
-use super::covariance::Identified;
-use super::frame::Factor;
+use super::frame::{ChainNumber, Factor};
 use crate::diagnostic::Span;
 use crate::expr::Expression;
 
@@ -217,4 +219,61 @@ pub struct Magnitude {
     pub standard_deviation: Option<f64>,
     /// Degrees of freedom of the standard deviation; infinite if it is known exactly.
     pub degrees_of_freedom: f64,
+}
+
+/// Covariance of identified quantities.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Covariance {
+    /// Identified quantities, in the order of the rows.
+    pub of: Vec<Identified>,
+    /// Symmetric matrix by rows, in the units of the quantities: the length unit, rad, or 1.
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// An identified quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Identified {
+    /// Magnitude of a source, 1 = as in the spec; by index among all sources.
+    Magnitude(usize),
+    /// One of the six errors of a frame (from 0), in the length unit or rad.
+    Error(usize, Component),
+    /// One of the six errors of `F_0`, the placement of the machine, in the length unit or rad.
+    Base(Component),
+    /// Error of a joint, by its index among the variables, in rad or the length unit.
+    Joint(usize),
+}
+
+/// A load on the structure: the weight of a mass, a force, a moment.
+#[derive(Clone, Debug)]
+pub struct Load {
+    /// Mass, whose weight acts under gravity.
+    pub mass: Option<Expression>,
+    /// Force along x, y and z.
+    pub force: Option<[Expression; 3]>,
+    /// Moment about x, y and z.
+    pub moment: Option<[Expression; 3]>,
+    /// Axes in which force and moment are given.
+    pub axes: Axes,
+    /// Index of the frame that the load is fixed to, from 0.
+    pub frame: usize,
+    /// Point of application.
+    pub point: Point,
+}
+
+/// The axes of a force or moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axes {
+    /// Axes of the load's frame: the force rotates with it.
+    Frame,
+    /// Axes of `F_0`.
+    Base,
+}
+
+/// Point of application of a load.
+#[derive(Clone, Debug)]
+pub enum Point {
+    /// Position relative to the frame.
+    Here([Expression; 3]),
+    /// The tool point; the frame is the one that carries the tool.
+    Tool,
 }

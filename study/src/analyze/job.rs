@@ -4,17 +4,16 @@ use abbe_spec::option::{DISABLE, ENABLE, Q, SCALE, SET};
 use std::ops::Range;
 
 use abbe::analysis::{BudgetOptions, BudgetSweep, Row};
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
 
 use super::parts::shard::Shard;
 use super::report::Report;
 use super::sweep::{AnalysisSweep, PartialAnalysis};
 use crate::changes::Changes;
 use crate::machine::Machine;
-use crate::mistake;
 use crate::notes::Notes;
-use crate::number;
 use crate::study_file::Study;
+use crate::{mistake, number};
 
 /// Job of `abbe analyze`: evaluates each error source over the workspace of a study.
 #[derive(Clone)]

@@ -4,7 +4,7 @@
 use abbe::analysis::{
     Budget, Correction, ErrorDistribution, Machines, Measurand, Residual, Subset, Yield, errors_at, sweep,
 };
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
 
 use super::compensated::{CHECKED, CompensatedErrors};
 use super::report::{

@@ -1,12 +1,14 @@
 //! Bounds on the first-order error, and on the error after one step of compensation.
+//!
+//! Smallest singular value of the joint Jacobian, and smallest stiffness of the machine.
 
-use abbe_bound::{Effort, Moving, Progress, Watch};
+use abbe_bound::{Effort, Extreme, Moving, Progress, Singular, Watch, singular_value};
 use abbe_codegen::chain::{self, Implicit, Magnitude};
 use abbe_codegen::graph::Graph;
 use abbe_spec::expr::Symbol;
 
 use super::domain::{Domain, GIVE_UP_BOXES};
-use super::report::{Classes, Remainder, StepResidual};
+use super::report::{Classes, Dexterity, LowerBound, Remainder, StepResidual};
 
 /// Effort for these small errors: a gap of one half is enough.
 const REMAINDER_EFFORT: Effort = Effort { gap: 0.5, boxes: 20_000, ..Effort::DEFAULT };
@@ -70,5 +72,34 @@ impl Domain {
         let gap = requested.gap.max(REMAINDER_EFFORT.gap);
         let effort = Effort { gap, boxes: requested.boxes.min(REMAINDER_EFFORT.boxes), ..REMAINDER_EFFORT };
         abbe_bound::largest(graph, magnitude, implicit, &moving, &|symbol| self.home(symbol), &effort, watch)
+    }
+}
+
+impl Domain {
+    /// Returns the dexterity of the tool point and of the tool; `None` for fewer than three joints.
+    pub(super) fn dexterity(&self, effort: &Effort, watch: &mut Watch<'_>) -> Option<Dexterity> {
+        let chain::Dexterity { graph, point, pose } = chain::Dexterity::new(&self.spec)?;
+        let mut least = |rows: &Vec<_>| {
+            let still = |symbol| self.home(symbol);
+            let least = singular_value(Extreme::Least, &graph, rows, &self.names(), &still, effort, watch);
+            self.least(&least)
+        };
+        Some(Dexterity { point: least(&point), pose: pose.as_ref().map(least) })
+    }
+
+    /// Returns the smallest stiffness at the tool point, in N/m: the inverse of the largest
+    /// compliance. `None` if no force deflects the tool point.
+    pub(super) fn stiffness(&self, effort: &Effort, watch: &mut Watch<'_>) -> Option<LowerBound> {
+        let chain::ToolCompliance { graph, rows } = chain::ToolCompliance::new(&self.spec)?;
+        let still = |symbol| self.home(symbol);
+        let largest = singular_value(Extreme::Largest, &graph, &rows, &self.names(), &still, effort, watch);
+        let certified = (1.0 / largest.certified).next_down().max(0.0);
+        Some(self.least(&Singular { certified, found: largest.found.map(f64::recip), ..largest }))
+    }
+
+    fn least(&self, least: &Singular) -> LowerBound {
+        let (at, label) = self.describe(&least.at);
+        let Singular { certified, found, boxes, complete, .. } = *least;
+        LowerBound { certified, found: found.filter(|found| found.is_finite()), at, boxes, complete, label }
     }
 }

@@ -9,7 +9,7 @@ use abbe::analysis::{
 };
 use abbe::{Error, Manipulator};
 use abbe_interpreter::Interpreter;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
 use serde::Serialize;
 
 use crate::notes::Notes;

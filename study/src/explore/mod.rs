@@ -1,28 +1,27 @@
 //! Data of a live page: the machine's generated JavaScript, and what a page shows of its spec and
 //! study.
 //!
-//! `report` is the data, `command` the options of the commands that give the page's figures, and
-//! `configurations` some configurations of the study's workspace.
+//! `report` is the data. Here are the options of the commands that give the page's figures, and
+//! configurations of the study's workspace, or of measured rows.
 
-mod command;
-mod configurations;
 mod report;
+
+pub use report::{
+    Configurations, ErrorUnit, FrameName, LiveInput, LiveParameter, LiveSource, LiveVariable, Report,
+    StudyFacts,
+};
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use abbe::analysis::{Configuration, Subset, Workspace};
 use abbe_codegen::print::Language;
 use abbe_interpreter::Interpreter;
 use abbe_spec::{Diagnostics, Spec};
 
 use crate::analyze::Analyze;
-use crate::finite;
 use crate::notes::Notes;
-use crate::{Machine, Residuals, Study};
-pub use report::{
-    Configurations, ErrorUnit, FrameName, LiveInput, LiveParameter, LiveSource, LiveVariable, Report,
-    StudyFacts,
-};
+use crate::{Machine, Residuals, Study, finite, mistake};
 
 /// Functions of the generated code that a page calls, if the manipulator has them.
 const FUNCTIONS: [&str; 6] =
@@ -58,8 +57,8 @@ impl Explore<'_> {
         let code = code.into_iter().map(|file| file.text).collect();
         notes.go_on()?;
         let configurations = match &self.residuals {
-            Some(residuals) => configurations::measured(residuals, &machine.spec),
-            None => configurations::configurations(&self.analysis)?,
+            Some(residuals) => measured(residuals, &machine.spec),
+            None => configurations(&self.analysis)?,
         };
         let interpreter = Interpreter::new(Arc::new(tunable.clone()));
         let effects = report::effects(&interpreter);
@@ -78,4 +77,69 @@ fn tunable(spec: &Spec) -> Spec {
         source.enabled = true;
     }
     spec.with_magnitudes_as_inputs()
+}
+
+impl Explore<'_> {
+    /// Returns the options of `abbe analyze`, in the order of a command line: the study, its
+    /// tolerances, then the changes, as they were given.
+    fn analyze_options(&self) -> Vec<String> {
+        let study = self.study.iter().map(|study| ("study", study.clone()));
+        let tolerances = self.analysis.study().stated_tolerances.iter();
+        let tolerances = tolerances.map(|tolerance| ("tolerance", tolerance.clone()));
+        options(study.chain(tolerances).chain(self.analysis.machine().options_with([])))
+    }
+
+    /// Returns the options of `abbe jacobian`, which has no study: the study's own changes, then
+    /// those that were given.
+    fn jacobian_options(&self) -> Vec<String> {
+        let machine = self.analysis.machine();
+        let changes = self.analysis.study().changes.options(&machine.spec);
+        options(changes.into_iter().chain(machine.options_with([])))
+    }
+}
+
+fn options(named: impl IntoIterator<Item = (&'static str, String)>) -> Vec<String> {
+    named.into_iter().flat_map(|(name, value)| [format!("--{name}"), value]).collect()
+}
+
+/// Largest number of configurations on a page.
+const COUNT: usize = 1000;
+
+/// Returns reachable configurations, evenly chosen.
+fn configurations(analysis: &Analyze) -> Result<Configurations, Diagnostics> {
+    let machine = analysis.machine();
+    let manipulator = machine.evaluator(true);
+    let region = &analysis.study().region;
+    let workspace = region.workspace(&*manipulator, analysis.seed);
+    let workspace = workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
+    let reached = Subset { workspace: &*workspace, count: COUNT }.reached();
+    let home = workspace.home();
+    Ok(Configurations {
+        q: reached.iter().map(|one| one.q.clone()).collect(),
+        u: unless_nominal(&home.u, &reached, |one| &one.u),
+        s: unless_nominal(&home.s, &reached, |one| &one.s),
+    })
+}
+
+/// Returns the configurations of measured rows, with nominal parameters.
+fn measured(residuals: &Residuals, spec: &Spec) -> Configurations {
+    let inputs = spec.inputs.len();
+    let u = residuals.rows.iter().map(|row| row.u[..inputs].to_vec());
+    Configurations {
+        q: residuals.rows.iter().map(|row| row.q.clone()).collect(),
+        u: if inputs > 0 { u.collect() } else { Vec::new() },
+        s: Vec::new(),
+    }
+}
+
+/// Returns values of each configuration; none if all are nominal.
+fn unless_nominal(
+    nominal: &Vec<f64>,
+    reached: &[Configuration],
+    values: fn(&Configuration) -> &Vec<f64>,
+) -> Vec<Vec<f64>> {
+    match reached.iter().all(|one| values(one) == nominal) {
+        true => Vec::new(),
+        false => reached.iter().map(|one| values(one).clone()).collect(),
+    }
 }

@@ -1,12 +1,61 @@
 //! `abbe export`: a machine with its repeatable errors in files that controllers and other programs
 //! load. `abbe_exchange` has the formats.
 
-mod job;
 mod options;
 
+pub use self::options::{SAMPLES, SAMPLES_RANGE};
 pub use abbe_exchange::export::{ExportReport as Report, ExportedFile, Figure, PoseDifference, RotaryAxis};
 pub use abbe_exchange::urdf::Ends;
 pub use abbe_exchange::{FORMATS, Format, FormatMismatch, Needs};
 
-pub use self::job::Export;
-pub use self::options::{SAMPLES, SAMPLES_RANGE};
+use abbe_exchange::export::RealMachine;
+use abbe_spec::Diagnostics;
+use abbe_spec::option::{TO_LINUXCNC_GENHEXKINS, TO_URDF};
+
+use crate::finite;
+use crate::machine::Machine;
+use crate::notes::Notes;
+use crate::number::digits;
+
+/// Job that writes a machine with its repeatable errors in another format.
+#[derive(Clone)]
+pub struct Export {
+    /// Machine; its repeatable sources are its errors.
+    pub machine: Machine,
+    /// Format of the files.
+    pub format: Format,
+    /// Number of random configurations at which poses are compared.
+    pub samples: usize,
+    /// Seed of these configurations.
+    pub seed: u64,
+}
+
+impl Export {
+    /// Writes the files as text, reads them back and compares the poses of the tool.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine: Machine { spec, origin, .. }, format, samples, seed } = self;
+        if !matches!(format, Format::UrdfTree | Format::LinuxCncGenhexkins) {
+            let instead = format!(
+                "use `abbe compensate` for corrected commands, or `abbe generate` for code that corrects them in the \
+                 controller; `{TO_URDF}` writes frames and loops, `{TO_LINUXCNC_GENHEXKINS}` six legs"
+            );
+            self.machine.require_chain("this format cannot hold the errors of this machine", &instead)?;
+        }
+        let mut machine = RealMachine::new(spec, self.machine.fixed_inputs(), *samples, *seed, origin)?;
+        if machine.is_nominal() {
+            notes.warn("this spec has no repeatable source: the nominal machine is exported");
+        }
+        let report = format.write(&mut machine, notes)?;
+        let Report { before, remains, .. } = &report;
+        if remains.position.rms > before.position.rms && !machine.is_nominal() {
+            let [before, remains] = [before, remains].map(|difference| digits(difference.position.rms, 3));
+            notes.warn(&format!(
+                "the exported file makes the error of the tool larger, {remains} {unit} instead \
+                 of {before} {unit} (rms): do not use it; increase the number of nodes, or narrow \
+                 the `limits` of the joints",
+                unit = report.length
+            ));
+        }
+        finite(origin, report)
+    }
+}

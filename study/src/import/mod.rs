@@ -1,9 +1,60 @@
 //! `abbe import`: a robot in another format as a spec. `abbe_exchange` has the formats.
 
-mod job;
 mod options;
 
+pub use self::options::{Format, Units};
 pub use abbe_exchange::import::{ImportReport as Report, ImportedFrame};
 
-pub use self::job::Import;
-pub use self::options::{Format, Units};
+use std::path::PathBuf;
+
+use abbe_exchange::import::AngleRounding;
+use abbe_exchange::{dh, urdf};
+use abbe_spec::option::{DH_MODIFIED, DH_STANDARD};
+use abbe_spec::{Diagnostics, Document};
+
+use crate::mistake;
+use crate::notes::Notes;
+
+/// Job that writes the spec of a robot in another format.
+#[derive(Clone, Debug)]
+pub struct Import {
+    /// File of the robot.
+    pub file: PathBuf,
+    /// Format of the file.
+    pub format: Format,
+    /// Rounds angles within 1e-5 rad of a multiple of 45° to that multiple.
+    pub round_angles: bool,
+}
+
+impl Import {
+    /// Reads the file and writes the spec.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let is_table = self.file.extension().is_some_and(|ending| ending == "csv" || ending == "tsv");
+        if is_table && matches!(self.format, Format::Urdf { .. }) {
+            let message = "the convention of these Denavit-Hartenberg numbers is unknown";
+            let help = format!(
+                "give it: `{DH_STANDARD}`, Rz(theta) Tz(d) Tx(a) Rx(alpha), or `{DH_MODIFIED}`, Rx(alpha) \
+                 Tx(a) Rz(theta) Tz(d)"
+            );
+            return Err(mistake::with_help(self.file.display(), message, help));
+        }
+        self.read(Document::read(&self.file)?, notes)
+    }
+
+    /// Writes the spec of a text; the spec names [`file`](Self::file) as its origin.
+    pub fn read(&self, document: Document, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let mut angles = AngleRounding::new(self.round_angles);
+        let chain = match &self.format {
+            Format::Urdf { base, tip, fold } => {
+                let ends = urdf::Ends { base: base.clone(), tip: tip.clone() };
+                urdf::read(&document, &ends, *fold, &mut angles, notes)
+            }
+            Format::Table { convention, units } => {
+                dh::read(&document, *convention, *units, &mut angles, notes)
+            }
+        };
+        let chain = document.finish(chain)?;
+        angles.note(notes);
+        Report::new(&chain, &self.file.file_name().unwrap_or_default().to_string_lossy(), notes)
+    }
+}

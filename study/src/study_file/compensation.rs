@@ -2,10 +2,9 @@
 
 use abbe::Description;
 use abbe::analysis::Residual;
-use abbe_spec::document::Item;
 use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
 use abbe_spec::value::find_name;
-use abbe_spec::{Diagnostic, Spec};
+use abbe_spec::{Diagnostic, Item, Spec};
 
 use super::keys;
 

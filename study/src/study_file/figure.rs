@@ -19,9 +19,8 @@
 //! ```
 
 use abbe::analysis::Measurand;
-use abbe_spec::document::{Item, Section};
 use abbe_spec::value::{find_name, read_name};
-use abbe_spec::{Diagnostic, Spec};
+use abbe_spec::{Diagnostic, Item, Section, Spec};
 use serde::{Serialize, Serializer};
 
 use super::choices::{KINDS, Kind, MEASURANDS, UP_AXES};

@@ -2,17 +2,15 @@
 //!
 //! `docs/reference/study.md` describes every key.
 //!
-//! `study` is the content of a study and `read` reads a file from top to bottom. `published` are
-//! figures from a publication, `figure` the figures to draw, `compensation` the residuals after
-//! compensation, `allocation` the costs of factors, and `tolerance` the permitted errors.
+//! `study` is the content of a study, with figures from a publication and the costs of factors, and
+//! `read` reads a file from top to bottom. `figure` are the figures to draw, `compensation` the
+//! residuals after compensation, and `tolerance` the permitted errors.
 //! Everything is checked against the spec, and mistakes are reported like those of a spec.
 
-mod allocation;
 mod choices;
 mod compensation;
 mod figure;
 mod keys;
-mod published;
 mod read;
 mod study;
 mod tolerance;
@@ -22,5 +20,4 @@ pub use compensation::Compensated;
 pub(crate) use figure::UP;
 pub use figure::{Content, Figure, Over};
 pub use keys::{TABLES, rules};
-pub use published::{Published, PublishedResidual, Subject};
-pub use study::Study;
+pub use study::{Published, PublishedResidual, Study, Subject};

@@ -3,19 +3,15 @@
 use abbe_spec::option::STUDY;
 use std::path::{Path, PathBuf};
 
-use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Diagnostic, Diagnostics, Spec};
+use abbe_spec::{Diagnostic, Diagnostics, Document, Item, Section, Spec};
 use sha2::{Digest, Sha256};
 
-use super::allocation;
 use super::choices::{CRITERIA, Criterion, JudgedMachine};
-use super::compensation;
 use super::figure::read_figures;
-use super::keys;
-use super::published::{read_compensated, read_published};
-use super::study::{PROBABILITY, Study};
+use super::study::{PROBABILITY, Study, read_allocation, read_compensated, read_published};
 use super::tolerance::{self, Tolerance};
+use super::{compensation, keys};
 use crate::changes::{Changes, find_symbol};
 use crate::machine::Machine;
 use crate::named;
@@ -77,7 +73,7 @@ fn read(root: &Section<'_>, spec: &Spec) -> Option<Study> {
     let published = read_published(root, spec);
     let compensated = root.get("compensated").and_then(|item| read_compensated(&item));
     let compensation = root.get("compensation").and_then(|item| compensation::read(&item, spec));
-    let allocation = root.get("allocation").map(|item| allocation::read(&item, spec));
+    let allocation = root.get("allocation").map(|item| read_allocation(&item, spec));
     let figures = read_figures(root, spec, region.as_ref());
     let mut head = head?;
     head.name = "[study]".to_owned();

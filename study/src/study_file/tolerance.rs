@@ -1,11 +1,10 @@
 //! Reads `tolerance`: the permitted errors of the tool, and the probability of meeting them.
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
-use abbe_spec::document::{Document, Item};
 use abbe_spec::expr::Dimension;
 use abbe_spec::option::{TOLERANCE, option};
 use abbe_spec::value::parse_value;
+use abbe_spec::{Diagnostic, Diagnostics, Document, Item};
 
 use super::choices::{JudgedMachine, MACHINES};
 use super::keys;

@@ -1,9 +1,10 @@
 //! Keys of a workspace.
+//!
+//! Words of a workspace that stand for one of a few values.
 
+use abbe::analysis::ToolOrientation;
 use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, Text, Whole};
 use abbe_spec::keys::{Rule, Then, When, words};
-
-use super::choices::ORIENTATIONS;
 
 const NUMBER: Value = Number("number");
 const VARIABLES: Value = List("names of variables", None, &Text("name"));
@@ -79,3 +80,10 @@ pub fn rules() -> Vec<Rule> {
         one_of("[workspace.grid.NAME]", vec!["count", "step"]),
     ]
 }
+
+pub(super) const ORIENTATIONS: [(&str, ToolOrientation); 4] = [
+    ("free", ToolOrientation::Free),
+    ("home", ToolOrientation::Home),
+    ("down", ToolOrientation::Along(2, [0.0, 0.0, -1.0])),
+    ("up", ToolOrientation::Along(2, [0.0, 0.0, 1.0])),
+];

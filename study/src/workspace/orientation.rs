@@ -1,14 +1,13 @@
 //! Orientations of the tool in a box of points.
 
 use abbe::analysis::ToolOrientation;
-use abbe_spec::diagnostic::Diagnostic;
-use abbe_spec::document::Item;
 use abbe_spec::expr::Dimension;
+use abbe_spec::{Diagnostic, Item};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use super::choices::ORIENTATIONS;
-use super::constant::constant;
+use super::axis::constant;
 use super::keys;
+use super::keys::ORIENTATIONS;
 use crate::number;
 
 /// Smallest angle between two axes of the tool that are not perpendicular, in rad.

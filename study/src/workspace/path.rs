@@ -14,11 +14,10 @@ use std::path;
 use abbe::analysis::Configuration;
 use abbe::{Manipulator, VariableKind};
 use abbe_spec::bounded::{UnreadableFile, not_text};
-use abbe_spec::cell::meant;
-use abbe_spec::document::{Document, Section};
+use abbe_spec::csv_writer::meant;
 use abbe_spec::expr::{Dimension, LARGEST, Symbol};
 use abbe_spec::value::{find_name, parse_value};
-use abbe_spec::{Diagnostic, Input, Spec};
+use abbe_spec::{Diagnostic, Document, Input, Section, Spec};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::keys;

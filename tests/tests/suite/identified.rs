@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use abbe_metrology::data::{Data, Map};
-use abbe_metrology::identify::{Family, Harmonics, Identify, Magnitude, Prior, Report, Settings};
+use abbe_metrology::identify::{Family, Harmonics, Identify, Kind, Magnitude, Prior, Report, Settings};
 use abbe_metrology::simulate::{Places, Simulate};
 use abbe_metrology::{Acceptance, measure};
 use abbe_spec::Spec;
@@ -392,6 +392,9 @@ fn a_prior_that_is_chosen_is_said_and_no_worse() {
     let rms = |report: &Report| report.cross_validation.after.rms;
     println!("{share}: {} by {}", rms(&chosen), rms(&stated));
     assert!((1e-5..1e-3).contains(&share) && rms(&chosen) < rms(&stated), "{share}");
+    // Zero holds the errors of frames.
+    let none = found(Prior::Share(0.0));
+    assert!(none.prior.is_none() && none.parameters.iter().all(|one| one.kind != Kind::Machine));
 }
 
 /// Checks that no more terms are tried after the time limit, which is reported, and that a

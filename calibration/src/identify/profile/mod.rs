@@ -7,16 +7,15 @@
 //!
 //! ```text
 //! r = J δx + Σ_j C_j w_j + noise,    row of C_j = ∂(model)/∂q_j · φ_j(q_j)ᵀ
-//! minimize  ‖r − J δx − Σ_j C_j w_j‖² + Σ_j λ_j ‖w_j‖² + priors of x
+//! minimize  ‖r − J δx − Σ_j C_j w_j‖² + Σ_j w_jᵀ Λ_j w_j + priors of x
 //! ```
 //!
-//! The unknowns x have no ridge. A profile that acts as x does would take its place at the size of
-//! the ridge, and x would be as uncertain as profiles are large. With `A = JᵀJ`, `M = C_jᵀC_j` and
-//! `S = M − C_jᵀJ A⁻¹ JᵀC_j`, directions d with `dᵀS d < 0.001 dᵀM d` are therefore excluded: the
-//! profile is orthogonal to them, `dᵀM w_j = 0`.
+//! The functions have zero mean over the rows, so that no profile takes the place of the zero of
+//! its joint, not even where rows leave it free in a gap. The covariance is that of x and all w
+//! together: what the data can show as one or the other makes both uncertain.
 //!
 //! `basis` has the functions, `normal` the normal equations of each fold of the cross-validation,
-//! and `ridge` the choice of `λ_j`.
+//! and `ridge` the choice of the ridges `Λ_j`, which are diagonal.
 
 mod basis;
 mod normal;
@@ -24,28 +23,30 @@ mod ridge;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::DMatrix;
+use core::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
 
 use super::fit::REJECTED;
-use super::{Configurations, Distances, Failure, Fit, Folds, Model, Observation};
+use super::{Distances, Failure, Fit, Folds, Model, Observation};
 use abbe_analysis::in_order;
 
+use basis::Centered;
 pub use basis::{ProfileBasis, ProfileJoint};
-use normal::Normal;
+use normal::{Normal, Ridges};
 
 /// Profile of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     /// The joint.
     pub joint: ProfileJoint,
+    functions: Centered,
     /// Coefficients of the functions, in rad or the length unit.
     pub coefficients: Vec<f64>,
     /// Covariance of the coefficients together with the unknowns of the fit, if the standard
     /// deviation of a residual is its stated uncertainty.
     covariance: DMatrix<f64>,
-    /// Expected size of a coefficient: σ/√λ.
-    pub expected: f64,
-    /// Number of coefficients that the data determine: `Σ (1 − λ C_kk/σ²)`.
+    /// Number of coefficients that the data determine: `Σ (1 − λ C_kk)`.
     pub effective: f64,
     /// Root mean square of the cross-validation residuals without this profile, in units of the
     /// uncertainty.
@@ -55,13 +56,13 @@ pub struct Profile {
 impl Profile {
     /// Returns the error of the joint at a value of it, in rad or the length unit.
     pub fn value(&self, q: f64) -> f64 {
-        self.joint.values(q).iter().zip(&self.coefficients).map(|(f, w)| f * w).sum()
+        self.functions.values(q).zip(&self.coefficients).map(|(f, w)| f * w).sum()
     }
 
     /// Returns the standard deviation of [`value`](Self::value), if that of a residual is its
     /// stated uncertainty.
     pub fn deviation(&self, q: f64) -> f64 {
-        let values = nalgebra::DVector::from_vec(self.joint.values(q));
+        let values = DVector::from_iterator(self.coefficients.len(), self.functions.values(q));
         values.dot(&(&self.covariance * &values)).max(0.0).sqrt()
     }
 }
@@ -87,50 +88,12 @@ pub struct Profiles {
     kept: Vec<usize>,
 }
 
-/// Independent numbers per function of the profiles, below which no profile is tried.
-const NUMBERS: usize = 3;
-
-/// Configurations per function of one profile, below which no profile is tried.
-const CONFIGURATIONS: usize = 4;
-
-/// Size of a set of measurements: that of some rows, or the least for profiles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ProfileData {
-    /// Number of independent numbers.
-    pub numbers: usize,
-    /// Number of configurations.
-    pub configurations: usize,
-}
-
-impl ProfileData {
-    /// Returns the size of some rows.
-    pub fn of_rows(data: &[Observation]) -> Self {
-        let (numbers, configurations) = Configurations::independent(data);
-        Self { numbers, configurations }
-    }
-
-    /// Returns the least size for profiles of these joints: three independent numbers for each
-    /// function, and four configurations for each function of one joint.
-    pub fn needed(joints: &[ProfileJoint]) -> Self {
-        let each = || joints.iter().map(|joint| joint.basis.count());
-        Self {
-            numbers: NUMBERS * each().sum::<usize>(),
-            configurations: CONFIGURATIONS * each().max().unwrap_or_default(),
-        }
-    }
-
-    /// Returns whether this size is at least another one.
-    pub fn suffices(self, needed: Self) -> bool {
-        self.numbers >= needed.numbers && self.configurations >= needed.configurations
-    }
-}
-
 /// Fits profiles of joints beside the unknowns of a fit, whose priors they share.
 ///
-/// Keeps those that reduce the squared cross-validation error by half a percent each; none if there
-/// are none, if the data are not [enough](ProfileData), or if a row refers to the one before it,
-/// such as a displacement. `model` and `data` are those of the fit. Each trial calls `proceed`,
-/// which returns false to stop.
+/// Keeps those that reduce the squared cross-validation error by half a percent each, or more with
+/// few rows; none if there are none, or if a row refers to the one before it, such as a
+/// displacement. `model` and `data` are those of the fit. Each trial calls `proceed`, which returns
+/// false to stop.
 pub fn fit_profiles(
     model: &Model,
     data: &[Observation],
@@ -139,32 +102,39 @@ pub fn fit_profiles(
     folds: &Folds,
     proceed: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Profiles>, Failure> {
-    let is_enough = ProfileData::of_rows(data).suffices(ProfileData::needed(joints));
-    if joints.is_empty() || !is_enough || data.iter().any(|row| row.from().is_some()) {
+    if joints.is_empty() || data.iter().any(|row| row.from().is_some()) {
         return Ok(None);
     }
-    let normal = Normal::new(model, data, fit, joints, folds)?;
+    let functions: Vec<Centered> = joints.iter().map(|joint| Centered::new(*joint, data)).collect();
+    let normal = Normal::new(model, data, fit, &functions, folds)?;
     let Some(chosen) = ridge::choose(&normal, proceed) else { return Ok(None) };
-    let Some(solved) = normal.solved(&chosen.ridges) else { return Ok(None) };
-    let rms = |squares: f64| (squares / normal.numbers as f64).sqrt();
-    let noise = chosen.noise;
-    let profile = |(j, joint): (usize, &ProfileJoint)| {
-        let ridge = chosen.ridges[j]?;
-        Some(Profile {
-            joint: *joint,
-            coefficients: solved.x[normal.columns(j)].to_vec(),
-            covariance: solved.covariance(normal.columns(j)),
-            expected: (noise / ridge).sqrt(),
-            effective: solved.effective[j],
+    let ridges = &chosen.ridges;
+    let Some(solved) = normal.solved(None, ridges) else { return Ok(None) };
+    let root = solved.root();
+    let covariance = root.tr_mul(&root);
+    let variances = covariance.diagonal();
+    let block = |columns: Range<usize>| {
+        covariance.view((columns.start, columns.start), (columns.len(), columns.len())).into_owned()
+    };
+    let rms = |squares: f64| (squares / normal.numbers).sqrt();
+    let profile = |(j, functions): (usize, &Centered)| {
+        let columns = normal.columns(j);
+        let spread = DVector::from_column_slice(&chosen.spread[columns.clone()]);
+        ridges[columns.start].is_finite().then(|| Profile {
+            joint: functions.joint,
+            functions: functions.clone(),
+            coefficients: solved.x.as_slice()[columns.clone()].to_vec(),
+            covariance: block(columns.clone()) + DMatrix::from_diagonal(&spread),
+            effective: normal.effective(j, variances.as_slice(), ridges),
             without: rms(chosen.without[j]),
         })
     };
-    let profiles: Vec<Profile> = joints.iter().enumerate().filter_map(profile).collect();
+    let profiles: Vec<Profile> = functions.iter().enumerate().filter_map(profile).collect();
     let information = normal.information();
     let before = information.clone().try_inverse();
-    let increase = before.map(|before| solved.covariance(0..normal.kept.len()) - before);
+    let increase = before.map(|before| block(0..normal.kept.len()) - before);
     Ok(Some(Profiles {
-        cross_validated: cross_validated(model, data, fit, joints, folds, &normal, &chosen.ridges)?,
+        cross_validated: cross_validated(model, data, fit, &functions, folds, &normal, &chosen.folds)?,
         profiles,
         before: rms(chosen.before),
         after: rms(chosen.after),
@@ -180,14 +150,16 @@ fn cross_validated(
     model: &Model,
     data: &[Observation],
     fit: &Fit,
-    joints: &[ProfileJoint],
+    joints: &[Centered],
     folds: &Folds,
     normal: &Normal,
-    ridges: &[Option<f64>],
+    ridges: &[Ridges],
 ) -> Result<Distances, Failure> {
     let extended = normal::extended(model, fit, joints);
-    let nothing = vec![0.0; normal.size()];
-    let solution = |fold| Ok(normal.without(fold, ridges).unwrap_or_else(|| nothing.clone()));
+    let solution = |fold: usize| {
+        let solved = normal.solved(Some(fold), &ridges[fold]);
+        Ok(solved.map_or_else(|| vec![0.0; normal.size()], |solved| solved.x.data.into()))
+    };
     let mut solutions = Vec::with_capacity(folds.count);
     in_order::<_, Failure>(folds.count, solution, |solution| solutions.push(solution))?;
     // The error of each joint is a constant of its row.
@@ -195,8 +167,8 @@ fn cross_validated(
         let solution = &solutions[folds.fold[i] as usize];
         let kept = normal.kept.iter().zip(solution).map(|(k, step)| fit.x[*k] + step);
         let errors = joints.iter().enumerate().map(|(j, joint)| {
-            let values = joint.values(row.q[joint.variable]);
-            values.iter().zip(&solution[normal.columns(j)]).map(|(f, w)| f * w).sum()
+            let values = joint.values(row.q[joint.joint.variable]);
+            values.zip(&solution[normal.columns(j)]).map(|(f, w)| f * w).sum()
         });
         kept.chain(errors).collect::<Vec<f64>>()
     };

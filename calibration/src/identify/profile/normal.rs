@@ -4,15 +4,10 @@ use core::ops::Range;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::basis::ProfileJoint;
+use super::basis::Centered;
 use crate::identify::fit::REJECTED;
 use crate::identify::{Failure, Fit, Folds, Model, Observation};
-use abbe_analysis::decompose::symmetric_eigen;
 use abbe_analysis::in_order;
-
-/// Share of the information about a direction of a profile that is left beside the unknowns, below
-/// which the direction is excluded.
-const LEFT: f64 = 1e-3;
 
 /// Rows that are added to the sums together, and columns that are eliminated together.
 const TOGETHER: usize = 64;
@@ -21,55 +16,63 @@ const TOGETHER: usize = 64;
 /// singular.
 const SINGULAR: f64 = 1e-14;
 
-/// Penalty of an excluded direction, as a multiple of the largest information about a function.
-const EXCLUDED: f64 = 1e6;
-
 /// Normal equations `N x = g` of all rows and of each fold. The kept unknowns come first, then the
-/// functions of each joint.
+/// functions of each joint. Rows of the prior of the unknowns and of known distances belong to no
+/// fold.
 pub(super) struct Normal {
     /// Indices of the kept unknowns of the fit.
     pub(super) kept: Vec<usize>,
     /// Number of measured numbers.
-    pub(super) numbers: usize,
+    pub(super) numbers: f64,
+    /// Mean information about a function of each joint.
+    pub(super) mean_information: Vec<f64>,
     /// First column of each joint, and the end of the last one.
     starts: Vec<usize>,
+    /// Number of functions of each number of cycles of each joint.
+    phases: Vec<usize>,
     all: Part,
-    folds: Vec<Part>,
-    /// Penalties of the unknowns by their prior.
-    prior: DMatrix<f64>,
-    /// Right side of the priors.
-    prior_right: DVector<f64>,
-    /// Penalties of excluded directions, and their number for each joint.
-    excluded: Vec<(DMatrix<f64>, usize)>,
+    pub(super) folds: Vec<Part>,
 }
 
+/// Ridge of each function, by its column; infinite without a profile, and 0 for the unknowns.
+pub(super) type Ridges = Vec<f64>;
+
 /// Sums over some rows.
-struct Part {
+#[derive(Clone)]
+pub(super) struct Part {
     matrix: DMatrix<f64>,
     right: DVector<f64>,
     squares: f64,
-    numbers: usize,
+    rows: f64,
 }
 
 /// Solution for given ridges.
 pub(super) struct Solution {
-    pub(super) x: Vec<f64>,
-    inverse: DMatrix<f64>,
-    /// Number of coefficients of each joint that the data determine.
-    pub(super) effective: Vec<f64>,
+    pub(super) x: DVector<f64>,
+    /// Sum of squared residuals.
+    pub(super) squares: f64,
+    /// Number of rows.
+    pub(super) rows: f64,
+    /// Columns that are solved for.
+    used: Vec<usize>,
+    factor: Cholesky<f64, Dyn>,
 }
 
 impl Solution {
-    /// Returns the covariance of a range of the columns, for a standard deviation of 1.
-    pub(super) fn covariance(&self, range: Range<usize>) -> DMatrix<f64> {
-        self.inverse.view((range.start, range.start), (range.len(), range.len())).into_owned()
+    /// Returns a root R of the covariance `RᵀR` of all columns, for a standard deviation of 1; 0
+    /// for those left out.
+    pub(super) fn root(&self) -> DMatrix<f64> {
+        let inverse = inverse_of_lower(self.factor.l_dirty());
+        let mut root = DMatrix::zeros(inverse.nrows(), self.x.len());
+        self.used.iter().zip(inverse.column_iter()).for_each(|(k, column)| root.set_column(*k, &column));
+        root
     }
 }
 
 /// Returns the model with the kept unknowns of a fit, and then the constant error of each joint.
-pub(super) fn extended<'m>(model: &Model<'m>, fit: &Fit, joints: &[ProfileJoint]) -> Model<'m> {
+pub(super) fn extended<'m>(model: &Model<'m>, fit: &Fit, joints: &[Centered]) -> Model<'m> {
     let kept = fit.identifiable.kept.iter().map(|k| model.unknowns[*k]);
-    model.with(kept.chain(joints.iter().map(|joint| joint.error)).collect())
+    model.with(kept.chain(joints.iter().map(|one| one.joint.error)).collect())
 }
 
 impl Normal {
@@ -77,13 +80,13 @@ impl Normal {
         model: &Model,
         data: &[Observation],
         fit: &Fit,
-        joints: &[ProfileJoint],
+        joints: &[Centered],
         folds: &Folds,
     ) -> Result<Self, Failure> {
         let kept = fit.identifiable.kept.clone();
         let mut starts = vec![kept.len()];
         for joint in joints {
-            starts.push(starts[starts.len() - 1] + joint.basis.count());
+            starts.push(starts[starts.len() - 1] + joint.joint.count());
         }
         let size = starts[joints.len()];
         let extended = extended(model, fit, joints);
@@ -98,8 +101,9 @@ impl Normal {
                     continue;
                 }
                 let weight = fit.weights[i].sqrt();
-                for (joint, start) in joints.iter().zip(&starts) {
-                    joint.fill(row.q[joint.variable], &mut functions[*start..]);
+                for (joint, ends) in joints.iter().zip(starts.windows(2)) {
+                    let values = joint.values(row.q[joint.joint.variable]);
+                    functions[ends[0]..ends[1]].iter_mut().zip(values).for_each(|(to, value)| *to = value);
                 }
                 extended.linear(row, |residual, derivatives| {
                     let mut columns = rows.row_mut(filled);
@@ -114,7 +118,7 @@ impl Normal {
                     let right = -weight * residual;
                     part.right.axpy(right, &columns.transpose(), 1.0);
                     part.squares += right * right;
-                    part.numbers += 1;
+                    part.rows += 1.0;
                     filled = (filled + 1) % TOGETHER;
                     if filled == 0 {
                         part.matrix.gemm(1.0, &rows.transpose(), &rows, 1.0);
@@ -127,19 +131,27 @@ impl Normal {
         };
         let (mut parts, mut all) = (Vec::new(), Part::new(size));
         in_order::<_, Failure>(folds.count, fold, |part| {
-            all.add(&part);
+            all.add(&part, 1.0);
             parts.push(part);
         })?;
-        let prior = fit.prior.tr_mul(&fit.prior);
-        let mut prior_right = DVector::zeros(size);
-        prior_right
-            .rows_mut(0, kept.len())
-            .copy_from(&(&prior * DVector::from_column_slice(&x[..kept.len()]) * -1.0));
-        let numbers = all.numbers;
-        let mut normal =
-            Self { kept, numbers, starts, all, folds: parts, prior, prior_right, excluded: Vec::new() };
-        normal.excluded = (0..joints.len()).map(|j| normal.excluded(j)).collect();
-        Ok(normal)
+        let numbers = all.rows;
+        let mut always = |row: &[f64], residual: f64| {
+            let row = DVector::from_column_slice(row).resize_vertically(size, 0.0);
+            all.matrix.ger(1.0, &row, &row, 1.0);
+            all.right.axpy(-residual, &row, 1.0);
+            all.squares += residual * residual;
+            all.rows += 1.0;
+        };
+        extended.distance_rows(&x, |residual, derivatives| always(&derivatives[..kept.len()], residual));
+        for row in fit.prior.rows.row_iter() {
+            let row: Vec<f64> = row.iter().copied().collect();
+            always(&row, row.iter().zip(&x).map(|(w, x)| w * x).sum());
+        }
+        let phases = joints.iter().map(|one| one.joint.basis.phases()).collect();
+        let information = all.matrix.diagonal();
+        let mean = |ends: &[usize]| information.rows_range(ends[0]..ends[1]).mean();
+        let mean_information = starts.windows(2).map(mean).collect();
+        Ok(Self { kept, numbers, mean_information, starts, phases, all, folds: parts })
     }
 
     /// Returns the number of columns.
@@ -157,109 +169,59 @@ impl Normal {
         self.starts[j]..self.starts[j + 1]
     }
 
-    /// Returns the mean information about a function of joint j.
-    pub(super) fn mean_information(&self, j: usize) -> f64 {
-        let columns = self.columns(j);
-        columns.clone().map(|k| self.all.matrix[(k, k)]).sum::<f64>() / columns.len() as f64
+    /// Returns the columns of each number of cycles of joint j.
+    pub(super) fn cycles(&self, j: usize) -> impl Iterator<Item = Range<usize>> {
+        let phases = self.phases[j];
+        self.columns(j).step_by(phases).map(move |start| start..start + phases)
     }
 
     /// Returns the information about the kept unknowns without profiles, priors included.
     pub(super) fn information(&self) -> DMatrix<f64> {
         let count = self.kept.len();
-        self.all.matrix.view((0, 0), (count, count)) + &self.prior
+        self.all.matrix.view((0, 0), (count, count)).into_owned()
     }
 
-    /// Returns the penalty `μ Σ u uᵀ`, `u = M d/‖M d‖`, of the directions d of joint j that act as
-    /// the unknowns do, and their number.
-    ///
-    /// With `M = L Lᵀ` they are `d = L⁻ᵀ v` for eigenvectors v of `L⁻¹ S L⁻ᵀ`, and `M d = L v`.
-    fn excluded(&self, j: usize) -> (DMatrix<f64>, usize) {
-        let (columns, count) = (self.columns(j), self.columns(j).len());
-        let none = (DMatrix::zeros(count, count), 0);
-        let all = &self.all.matrix;
-        let mut m = all.view((columns.start, columns.start), (count, count)).into_owned();
-        let largest = m.diagonal().max();
-        // A direction without information is not excluded: its ridge suffices.
-        (0..count).for_each(|k| m[(k, k)] += 1e-9 * largest);
-        let cross = all.view((0, columns.start), (self.kept.len(), count)).into_owned();
-        let Some(known) = self.information().cholesky() else { return none };
-        let s = &m - cross.tr_mul(&known.solve(&cross));
-        let Some(l) = m.cholesky().map(|cholesky| cholesky.l()) else { return none };
-        let Some(half) = l.solve_lower_triangular(&s) else { return none };
-        let Some(ratio) = l.solve_lower_triangular(&half.transpose()) else { return none };
-        let Some(eigen) = symmetric_eigen((&ratio + ratio.transpose()) * 0.5) else { return none };
-        let (mut penalty, mut number) = none;
-        for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-            if *value < LEFT {
-                let u = (&l * vector).normalize();
-                penalty.ger(EXCLUDED * largest, &u, &u, 1.0);
-                number += 1;
-            }
+    /// Solves for all rows, or without those of a fold; none if the equations are singular.
+    pub(super) fn solved(&self, left_out: Option<usize>, ridges: &[f64]) -> Option<Solution> {
+        let mut part = self.all.clone();
+        if let Some(fold) = left_out.map(|fold| &self.folds[fold]) {
+            part.add(fold, -1.0);
         }
-        (penalty, number)
-    }
-
-    /// Adds ridges and priors, and factorizes; none if the equations are singular. A joint without
-    /// a ridge has no profile.
-    fn penalized(&self, mut matrix: DMatrix<f64>, ridges: &[Option<f64>]) -> Option<Cholesky<f64, Dyn>> {
-        let mut of_unknowns = matrix.view_mut((0, 0), self.prior.shape());
-        of_unknowns += &self.prior;
-        for (j, ridge) in ridges.iter().enumerate() {
-            let columns = self.columns(j);
-            let ridge = ridge.unwrap_or(EXCLUDED * EXCLUDED * self.mean_information(j).max(1e-300));
-            let (start, count) = (columns.start, columns.len());
-            let mut own = matrix.view_mut((start, start), (count, count));
-            own += &self.excluded[j].0;
-            (0..count).for_each(|k| own[(k, k)] += ridge);
-        }
+        let used: Vec<usize> = (0..self.size()).filter(|k| ridges[*k].is_finite()).collect();
+        let mut matrix = part.matrix.select_columns(&used).select_rows(&used);
+        used.iter().enumerate().for_each(|(i, k)| matrix[(i, i)] += ridges[*k]);
         let least = matrix.diagonal() * SINGULAR;
         let factor = cholesky(matrix)?;
         let pivots = factor.l_dirty().diagonal();
-        pivots.iter().zip(&least).all(|(pivot, least)| pivot * pivot > *least).then_some(factor)
-    }
-
-    fn solve(&self, factor: &Cholesky<f64, Dyn>, right: &DVector<f64>, ridges: &[Option<f64>]) -> Vec<f64> {
-        let mut x: Vec<f64> = factor.solve(&(right + &self.prior_right)).data.into();
-        for j in (0..ridges.len()).filter(|j| ridges[*j].is_none()) {
-            x[self.columns(j)].fill(0.0);
+        if !pivots.iter().zip(&least).all(|(pivot, least)| pivot * pivot > *least) {
+            return None;
         }
-        x
+        let own = factor.solve(&part.right.select_rows(&used));
+        let mut x = DVector::zeros(self.size());
+        used.iter().zip(&own).for_each(|(k, value)| x[*k] = *value);
+        Some(Solution { squares: part.squares_at(&x), rows: part.rows, x, used, factor })
     }
 
-    /// Solves for all rows; none if the equations are singular.
-    pub(super) fn solved(&self, ridges: &[Option<f64>]) -> Option<Solution> {
-        let factor = self.penalized(self.all.matrix.clone(), ridges)?;
-        let x = self.solve(&factor, &self.all.right, ridges);
-        let inverse = factor.inverse();
-        let effective = |(j, ridge): (usize, &Option<f64>)| {
-            let Some(ridge) = ridge else { return 0.0 };
-            let trace: f64 = self.columns(j).map(|k| inverse[(k, k)]).sum();
-            let free = self.columns(j).len() - self.excluded[j].1;
-            (free as f64 - ridge * trace).max(0.0)
-        };
-        let effective = ridges.iter().enumerate().map(effective).collect();
-        Some(Solution { x, inverse, effective })
+    /// Returns the ridges without the profiles of some joints.
+    pub(super) fn without(&self, joints: Range<usize>, ridges: &[f64]) -> Ridges {
+        let mut ridges = ridges.to_vec();
+        ridges[self.starts[joints.start]..self.starts[joints.end]].fill(f64::INFINITY);
+        ridges
     }
 
-    /// Returns the sum of squared residuals of all rows.
-    pub(super) fn squares_at(&self, x: &[f64]) -> f64 {
-        self.all.squares_at(x)
+    /// Returns the number of coefficients of joint j that the data determine, `Σ (1 − λ C_kk)`.
+    pub(super) fn effective(&self, j: usize, variances: &[f64], ridges: &[f64]) -> f64 {
+        let used = self.columns(j).filter(|k| ridges[*k].is_finite());
+        used.map(|k| 1.0 - ridges[k] * variances[k]).sum()
     }
 
-    /// Solves without the rows of a fold.
-    pub(super) fn without(&self, fold: usize, ridges: &[Option<f64>]) -> Option<Vec<f64>> {
-        let own = &self.folds[fold];
-        let factor = self.penalized(&self.all.matrix - &own.matrix, ridges)?;
-        Some(self.solve(&factor, &(&self.all.right - &own.right), ridges))
-    }
-
-    /// Returns the sum of squared residuals of all folds under the solutions of the others; none if
-    /// the equations are singular.
-    pub(super) fn cross_validated(&self, ridges: &[Option<f64>]) -> Option<f64> {
+    /// Returns the sum of squared residuals of all folds under the solutions of the others, each
+    /// with its ridges; none if the equations are singular.
+    pub(super) fn cross_validated(&self, ridges: &[Ridges]) -> Option<f64> {
         let mut sum = 0.0;
         let fold = |fold: usize| {
-            let x = self.without(fold, ridges).ok_or(())?;
-            Ok(self.folds[fold].squares_at(&x))
+            let solution = self.solved(Some(fold), &ridges[fold]).ok_or(())?;
+            Ok(self.folds[fold].squares_at(&solution.x))
         };
         in_order::<_, ()>(self.folds.len(), fold, |squares| sum += squares).ok()?;
         Some(sum)
@@ -269,20 +231,20 @@ impl Normal {
 impl Part {
     fn new(size: usize) -> Self {
         let (matrix, right) = (DMatrix::zeros(size, size), DVector::zeros(size));
-        Self { matrix, right, squares: 0.0, numbers: 0 }
+        Self { matrix, right, squares: 0.0, rows: 0.0 }
     }
 
-    fn add(&mut self, other: &Self) {
-        self.matrix += &other.matrix;
-        self.right += &other.right;
-        self.squares += other.squares;
-        self.numbers += other.numbers;
+    /// Adds other sums, or subtracts them.
+    fn add(&mut self, other: &Self, sign: f64) {
+        self.matrix.zip_apply(&other.matrix, |own, other| *own += sign * other);
+        self.right.axpy(sign, &other.right, 1.0);
+        self.squares += sign * other.squares;
+        self.rows += sign * other.rows;
     }
 
     /// Returns `‖r − A x‖² = rᵀr − 2 gᵀx + xᵀN x`.
-    fn squares_at(&self, x: &[f64]) -> f64 {
-        let x = DVector::from_column_slice(x);
-        self.squares + x.dot(&(&self.matrix * &x - &self.right * 2.0))
+    fn squares_at(&self, x: &DVector<f64>) -> f64 {
+        (self.squares + x.dot(&(&self.matrix * x - &self.right * 2.0))).max(0.0)
     }
 }
 
@@ -306,4 +268,21 @@ pub(super) fn cholesky(mut matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
         matrix.view_mut((end, start), (left, own)).copy_from(&rows);
     }
     Some(Cholesky::pack_dirty(matrix))
+}
+
+/// Returns the inverse X of a lower triangular matrix, by blocks of rows:
+/// `X_i = L_ii⁻¹ (I_i − L_i X)`, with the rows of X above.
+fn inverse_of_lower(l: &DMatrix<f64>) -> DMatrix<f64> {
+    let size = l.nrows();
+    let mut inverse = DMatrix::identity(size, size);
+    for start in (0..size).step_by(TOGETHER) {
+        let own = TOGETHER.min(size - start);
+        let (above, mut rows) = inverse.rows_range_pair_mut(..start, start..start + own);
+        // The columns behind these rows stay zero.
+        let end = start + own;
+        let mut rows = rows.columns_mut(0, end);
+        rows.gemm(-1.0, &l.view((start, 0), (own, start)), &above.columns(0, end), 1.0);
+        l.view((start, start), (own, own)).solve_lower_triangular_unchecked_mut(&mut rows);
+    }
+    inverse
 }

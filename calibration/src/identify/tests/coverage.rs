@@ -210,16 +210,22 @@ fn an_outlier_among_few_rows_is_found() {
     }
 }
 
-/// Machines whose errors are drawn from their priors, or are three times as large: the 95 %
-/// intervals hold, although rows are few and turn three joints of six, so that many errors are as
-/// expected. The places of base and target are unknown.
+/// Machines whose errors are drawn from their priors, are three times as large, or zero but for
+/// every sixth: the 95 % intervals hold, although rows are few and turn three joints of six, so
+/// that many errors are as expected. The places of base and target are unknown.
 #[test]
 fn intervals_hold_where_rows_say_little() {
     let model = machine(1);
     let model = model.with(model.constants(false));
     let priors = model.priors(1e-3).unwrap();
     let is_error = |k: &usize| matches!(model.unknowns[*k], Unknown::Error(..));
-    for (count, moved, factor) in [(40, vec![0, 1, 3], 1.0), (14, vec![0, 1, 2, 3, 4, 5], 3.0)] {
+    let all: Vec<usize> = (0..6).collect();
+    for (count, moved, factor, each) in [
+        (40, vec![0, 1, 3], 1.0, 1),
+        (14, all.clone(), 3.0, 1),
+        (40, vec![0, 1, 3], 1.0, 6),
+        (14, all, 1.0, 6),
+    ] {
         let list = sampled(&Pps, &moved, count, 1);
         let (mut within, mut all, mut scale, mut poor) = (0.0, 0.0, 0.0, 0);
         for seed in 0..60 {
@@ -231,7 +237,9 @@ fn intervals_hold_where_rows_say_little() {
                 _ => 0.0,
             };
             let size = |k: usize| share(model.unknowns[k]) * priors[k].unwrap();
-            let truth: Vec<f64> = (0..priors.len()).map(|k| normal(size(k))).collect();
+            let mut truth: Vec<f64> = (0..priors.len()).map(|k| normal(size(k))).collect();
+            let is_zero = |k: &usize| is_error(k) && (k + seed as usize) % each != 0;
+            (0..truth.len()).filter(is_zero).for_each(|k| truth[k] = 0.0);
             let data = measured(&model, &truth, &list, 0.02, &mut random);
             let found = fit(&model, &data, &options(&model, Loss::Squares)).unwrap();
             let mut expected = truth.clone();
@@ -240,6 +248,15 @@ fn intervals_hold_where_rows_say_little() {
             }
             let student = student_factor(0.95, found.coverage_freedom);
             let deviations = found.standard_deviations();
+            if seed < 5 {
+                // Without outliers, a robust loss chooses the same scale, and says the same.
+                let robust = fit(&model, &data, &options(&model, Loss::Tukey)).unwrap();
+                assert!((robust.scale / found.scale - 1.0).abs() < 0.05, "{} {}", robust.scale, found.scale);
+                for (a, b) in robust.standard_deviations().iter().zip(&deviations) {
+                    let ratio = a.zip(*b).map_or(1.0, |(a, b)| a / b);
+                    assert!((0.8..1.25).contains(&ratio), "{seed}: {ratio}");
+                }
+            }
             for k in found.identifiable.kept.iter().filter(|k| is_error(k)) {
                 let is_within = (found.x[*k] - expected[*k]).abs() <= student * deviations[*k].unwrap();
                 (within, all) = (within + f64::from(u8::from(is_within)), all + 1.0);
@@ -248,8 +265,10 @@ fn intervals_hold_where_rows_say_little() {
             scale += found.scale / 60.0;
         }
         println!("{count} rows: {:.3} of {all}, scale {scale:.2}, {poor} by the prior", within / all);
-        assert!((0.90..=0.98).contains(&(within / all)), "{count}: {}", within / all);
-        assert!((0.7..1.4).contains(&(scale / factor)), "{count}: {scale}");
+        // A few large errors that the rows do not show do not raise the scale.
+        let least = if each > 1 { 0.85 } else { 0.90 };
+        assert!((least..=0.98).contains(&(within / all)), "{count}: {}", within / all);
+        assert!(each > 1 || (0.7..1.4).contains(&(scale / factor)), "{count}: {scale}");
         assert!(poor > 60, "{count}: {poor}");
     }
 }

@@ -355,11 +355,11 @@ fn limits_make_a_verdict() {
     let identify = ["identify", "ur5", path(&data), "--map", path(&bench.map), "--test", path(&unseen)];
     let run = abbe(&[&identify[..], &["--accept", "mean 0.1 mm, max 0.2 mm", "--out", path(&out)]].concat());
     assert_eq!(run.status, 0, "{}", run.stderr);
-    assert!(run.stdout.contains(": ACCEPTED, mean error 0.0"), "{}", run.stdout);
+    assert!(run.stdout.contains(": WITHIN LIMITS, mean error 0.0"), "{}", run.stdout);
     let run = abbe(&[&identify[..], &["--accept", "mean 0.1 mm, rms 1 um"]].concat());
     assert_eq!(run.status, 1, "{}", run.stderr);
-    assert!(run.stdout.contains(": NOT ACCEPTED, "), "{}", run.stdout);
-    assert!(!prints(&identify).contains("ACCEPTED"));
+    assert!(run.stdout.contains(": BEYOND LIMITS, "), "{}", run.stdout);
+    assert!(!prints(&identify).contains("LIMITS"));
 
     let map = out.with_extension("map.toml");
     let limits = std::fs::read_to_string(&map).unwrap() + "\n[accept]\np95 = \"2 um\"\n";

@@ -183,7 +183,8 @@ fn one_degree_of_freedom_leaves_the_stated_uncertainty() {
     }
 }
 
-/// Two lengths that act alike are said as their sum, and each with what its prior leaves of it.
+/// Two lengths that act alike are said as their sum, and each with what its prior leaves of it; a
+/// plan says it before anything is measured.
 #[test]
 fn lengths_in_line_are_known_as_a_sum() {
     let length = |name: &str| {
@@ -215,4 +216,49 @@ fn lengths_in_line_are_known_as_a_sum() {
             && text.contains(sentence),
         "{text}"
     );
+    let folder = tempdir().unwrap();
+    let [spec, map] =
+        [("arm.toml", &spec[..]), ("map.toml", map)].map(|(name, text)| write(folder.path(), name, text));
+    let plan = prints(&["plan", path(&spec), "--map", path(&map), "--optimal", "8"]);
+    assert!(plan.contains("upper + lower: these rows determine the sum, not its parts"), "{plan}");
+}
+
+/// The zeros of joints whose motions are coupled are found by their own names, each at its value.
+#[test]
+fn coupled_joints_have_zeros_of_their_own() {
+    let frame = |name: &str, joint: &str, theta: &str, dh: &str| {
+        format!(
+            "[[frame]]\nname = \"{name}\"\nvariable = {{ name = \"{joint}\", kind = \"revolute\", limits = [\"-90 deg\", \"60 deg\"] }}\n\
+             dh = {{ theta = \"{theta}\", {dh} }}\n"
+        )
+    };
+    let spec = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n".to_owned()
+        + &frame("A", "a", "a", "d = 380, a = 60, alpha = \"-90 deg\"")
+        + &frame("B", "b", "b", "d = 0, a = 440, alpha = 0")
+        + &frame("C", "c", "c - b", "d = 0, a = 30, alpha = \"-90 deg\"")
+        + "[tool]\ntransform = \"Tx(50 mm) Ty(40 mm) Tz(400 mm)\"\n";
+    let zero = |joint: &str, error: &str| {
+        format!(
+            "[[source]]\nname = \"{joint} as built\"\nclass = \"repeatable\"\njoint = \"{joint}\"\nerror = \"{error}\"\n"
+        )
+    };
+    let joints =
+        ["a", "b", "c"].map(|joint| format!("{joint} = {{ column = \"{joint}\", unit = \"deg\" }}\n"));
+    let map = "[data]\nuncertainty = \"0.02 mm\"\nplacement = \"exact\"\n[joints]\n".to_owned()
+        + &joints.concat()
+        + "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
+    let folder = tempdir().unwrap();
+    let real = spec.clone() + &zero("b", "0.7 mrad") + &zero("c", "-0.6 mrad");
+    let [real, of] =
+        [("real.toml", &real), ("map.toml", &map)].map(|(name, text)| write(folder.path(), name, text));
+    let rows = prints(&["simulate", path(&real), "--map", path(&of), "--samples", "80", "--seed", "1"]);
+    let (status, text) = identified(&spec, &map, &rows, &["--json"]);
+    let report: Value =
+        serde_json::from_str(text.lines().next().unwrap()).unwrap_or_else(|_| panic!("{text}"));
+    for (name, truth) in [("zero of b", 0.7e-3), ("zero of c", -0.6e-3)] {
+        let all = report["joint_errors"].as_array().unwrap();
+        let one = all.iter().find(|one| one["number"] == name).unwrap_or_else(|| panic!("{name} {all:?}"));
+        let [value, deviation] = ["value", "standard_deviation"].map(|key| number(one, &[key]));
+        assert!(status == 0 && (value - truth).abs() < 4.0 * deviation && deviation < 1e-4, "{one}");
+    }
 }

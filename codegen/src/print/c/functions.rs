@@ -9,11 +9,10 @@ use super::operators::C;
 use super::procedures::CPrinter;
 use super::real::Real;
 use crate::print::flat::Flat;
-use crate::print::layout::Writer;
+use crate::print::layout::{Writer, sizes};
 use crate::print::procedure::Printer;
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
-use crate::print::text::sizes;
 use crate::program::{Array, Checks, Role, Routine, Routines};
 
 /// Returns the head of a function without its end: `int pps_pose(const double q[ABBE_RESTRICT(6)],

@@ -8,9 +8,8 @@ use super::heads::{RESTRICT, broken, comment};
 use super::real::Real;
 use crate::print::expression::{Binding, Expression, Value};
 use crate::print::flat::{Results, filled};
-use crate::print::layout::Writer;
+use crate::print::layout::{Writer, harmless};
 use crate::print::procedure::{Called, Invocation, Printer, arrays};
-use crate::print::text::harmless;
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::Routines;
 

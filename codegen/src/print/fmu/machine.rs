@@ -5,8 +5,7 @@ use abbe_spec::Spec;
 
 use super::variables::{CORRECTED, OUTPUTS, Variables};
 use crate::print::c::Real;
-use crate::print::layout::Writer;
-use crate::print::text::NOT_CLOSED;
+use crate::print::layout::{NOT_CLOSED, Writer};
 
 /// Returns the header.
 pub(super) fn header(spec: &Spec, variables: &Variables, token: &str, included: &str) -> String {

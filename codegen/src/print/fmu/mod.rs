@@ -1,27 +1,24 @@
 //! A functional mock-up unit (FMI 3.0 or 2.0) for simulators: the C code of a machine with a
 //! description of its variables.
 //!
-//! `variables` lists the variables, `description` and `page` describe them for programs and people,
+//! `variables` lists the variables, `description` describes them for programs and people,
 //! `machine` for the C code that all machines share: `fmi-3.c`, `fmi-2.c`, `fmi-instance.h`. `xml`
-//! writes elements, `units` the units.
+//! writes elements.
 
 mod description;
-mod fmi;
 mod machine;
-mod page;
-mod units;
 mod variables;
 mod xml;
 
 use abbe_spec::Spec;
 use sha2::{Digest, Sha256};
 
-pub use self::fmi::Fmi;
 use self::variables::Variables;
 use super::c::{self, Real};
-use super::source_file::SourceFile;
+use super::layout::SourceFile;
 use crate::chain::Model;
 use crate::program::Routines;
+pub use description::Fmi;
 
 /// Functions of the C code that the unit calls.
 pub(super) const FUNCTIONS: [&str; 4] = ["pose", "predicted_displacement", "real_pose", "compensated"];
@@ -45,7 +42,7 @@ pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, fmi: Fmi) -
     let described = description::model(spec, fmi, &variables, &token, &compiled);
     let mut files = vec![
         file("modelDescription.xml", described),
-        file("documentation/index.html", page::page(spec, fmi, &variables)),
+        file("documentation/index.html", description::page(spec, fmi, &variables)),
     ];
     files.append(&mut sources);
     files

@@ -1,10 +1,9 @@
 //! JavaScript: an ES module of pure functions on `Float64Array`.
 //!
 //! Every function allocates its results, flat and in the order of the Rust arrays. A single result
-//! is returned as it is, several results as an object. `functions` prints routines, `operators`
-//! expressions, `procedures` and `compensated` the corrected commands.
+//! is returned as it is, several results as an object. `functions` prints routines and the
+//! corrected commands, `operators` expressions, `procedures` statements.
 
-mod compensated;
 mod functions;
 mod operators;
 mod procedures;
@@ -16,12 +15,10 @@ use self::functions::function;
 use self::operators::number;
 use self::procedures::{JavaScriptPrinter, comment};
 use super::header::header;
-use super::layout::Writer;
-use super::lists::lists;
+use super::layout::{Writer, escaped};
+use super::lists::{lists, records};
 use super::names::function_of;
 use super::procedure::Printer;
-use super::records::records;
-use super::text::escaped;
 use crate::procedure::{clamped, look_up};
 use crate::program::Routines;
 
@@ -50,7 +47,7 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     for routine in &routines.list {
         function(&mut writer, spec, routines, routine);
     }
-    compensated::compensated(&mut writer, spec, routines);
+    functions::compensated(&mut writer, spec, routines);
     writer.finish()
 }
 

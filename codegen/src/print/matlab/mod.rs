@@ -1,10 +1,9 @@
 //! Matlab and Octave: a class of static functions, one configuration at a time.
 //!
 //! Arrays are matrices in Matlab's column-major order, which is the order of the numbers in the
-//! Rust arrays. `functions` prints routines, `operators` expressions, `procedures` and
-//! `compensated` the corrected commands.
+//! Rust arrays. `functions` prints routines and the corrected commands, `operators` expressions,
+//! `procedures` statements.
 
-mod compensated;
 mod functions;
 mod operators;
 mod procedures;
@@ -22,12 +21,10 @@ use self::operators::{WORDS, number, spelled};
 use self::procedures::{MatlabPrinter, list};
 use super::flat::Flat;
 use super::header::header;
-use super::layout::Writer;
+use super::layout::{SourceFile, Writer, escaped, harmless, wrapped};
 use super::lists::lists;
 use super::names::{distinct, function_of, renamed};
 use super::procedure::Printer;
-use super::source_file::SourceFile;
-use super::text::{escaped, harmless, wrapped};
 use crate::procedure::{
     Precision, Procedure, clamped, compensated as described, least_and_greatest, look_up, side,
 };
@@ -64,7 +61,7 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
     for routine in &routines.list {
         function(&mut writer, &class, spec, Flat { routines, routine });
     }
-    compensated::compensated(&mut writer, &class, spec, routines);
+    functions::compensated(&mut writer, &class, spec, routines);
     writer.close("end");
     writer.close("end");
     SourceFile { name: format!("{class}.m"), text: writer.finish() }

@@ -2,9 +2,8 @@
 
 use super::operators::number;
 use crate::print::expression::{Binding, Expression};
-use crate::print::layout::Writer;
+use crate::print::layout::{OPEN, Writer, harmless};
 use crate::print::procedure::{Called, Invocation, Printer};
-use crate::print::text::{OPEN, harmless};
 use crate::procedure::{Counter, Index, Procedure, Variable};
 use crate::program::Routines;
 

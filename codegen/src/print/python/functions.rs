@@ -1,16 +1,19 @@
 //! Prints routines as functions.
+//!
+//! Corrected commands on NumPy arrays of configurations.
 
-use abbe_core::function::{self, Signature};
+use abbe_core::function::{self, COMPENSATED, Signature};
 use abbe_core::{Description, Quantity};
 use abbe_spec::Spec;
 
 use super::operators::Python;
 use super::procedures::PythonPrinter;
 use crate::print::flat::Flat;
-use crate::print::layout::Writer;
+use crate::print::layout::{Writer, sizes};
+use crate::print::procedure::{Printer, split};
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
-use crate::print::text::sizes;
+use crate::procedure::{Precision, compensated as described};
 use crate::program::{Role, Routine, Routines};
 
 /// Prints the public function, which checks shapes and gives the results their documented shapes.
@@ -137,3 +140,38 @@ pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, rout
     writer.lines(&format!("return {}", results.chain(margin).collect::<Vec<_>>().join(", ")));
     writer.end();
 }
+
+pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines) {
+    if !routines.has_compensated() {
+        return;
+    }
+    let statuses = Precision::Double.statuses();
+    face(writer, &routines.description, &COMPENSATED, Some(["status", &statuses]), Some(WITHOUT_LAST));
+    let (helpers, cycle) = split(described(spec, Precision::Double));
+    writer.blank();
+    writer.blank();
+    writer.paragraphs(HELPERS);
+    let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
+    helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
+    let writer = &mut *printer.writer;
+    writer.blank();
+    writer.blank();
+    writer.lines("@np.errstate(divide=\"ignore\", invalid=\"ignore\")");
+    writer.begin("def _compensated(batch, *given):");
+    writer.lines(CHECKS.trim_end());
+    printer.declarations(&cycle, None);
+    printer.statements(&cycle.body);
+    printer.writer.lines("return corrected, correction, before, after, status");
+    printer.writer.end();
+}
+
+/// Arguments that may be left out.
+const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have any size. With it, `change` and `largest` are \
+     those of the variables in `description` if they are left out, and `rotations` is the whole pose. Raises ValueError if \
+     a number is not finite or an input is outside its range";
+
+/// Sums have the same bits for one configuration and for many.
+const HELPERS: &str = include_str!("dot.py");
+
+/// Checks the arguments. Where a case does not hold, its statements may divide by 0.
+const CHECKS: &str = include_str!("checks.py");

@@ -3,9 +3,8 @@
 //!
 //! Every function consists of a public part, which checks its arguments, reports mistakes and gives
 //! results the usual shapes, and a routine on flat arrays behind it. `functions` prints both,
-//! `operators` expressions, `procedures` and `compensated` the corrected commands.
+//! and the corrected commands, `operators` expressions, `procedures` statements.
 
-mod compensated;
 mod functions;
 mod operators;
 mod procedures;
@@ -18,13 +17,10 @@ use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
 use self::procedures::PythonPrinter;
 use super::header::header;
-use super::layout::Writer;
-use super::lists::lists;
+use super::layout::{SourceFile, Writer, escaped, harmless};
+use super::lists::{lists, records};
 use super::names::{file_name, function_of, renamed};
 use super::procedure::Printer;
-use super::records::records;
-use super::source_file::SourceFile;
-use super::text::{escaped, harmless};
 use crate::procedure::look_up;
 use crate::program::Routines;
 
@@ -86,7 +82,7 @@ fn module(spec: &Spec, routines: &Routines, name: &str) -> String {
         }
         kernel(&mut writer, spec, routines, routine);
     }
-    compensated::compensated(&mut writer, spec, routines);
+    functions::compensated(&mut writer, spec, routines);
     writer.finish()
 }
 
@@ -108,7 +104,7 @@ fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table) {
 
 /// Prints a comment of one or more lines.
 fn comment(writer: &mut Writer, text: &str) {
-    for line in super::text::wrapped(&harmless(text), 96) {
+    for line in super::layout::wrapped(&harmless(text), 96) {
         writer.lines(&format!("# {line}"));
     }
 }

@@ -7,9 +7,8 @@ use abbe_core::compensator::Status;
 
 use super::operators::number;
 use crate::print::expression::{Binding, Expression, Value};
-use crate::print::layout::Writer;
+use crate::print::layout::{OPEN, Writer, harmless};
 use crate::print::procedure::{Invocation, Printer};
-use crate::print::text::{OPEN, harmless};
 use crate::procedure::{Condition, Counter, Index, Procedure, Statement, Variable};
 use crate::program::{Role, Routines};
 

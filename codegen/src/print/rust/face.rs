@@ -5,10 +5,9 @@ use abbe_core::distinct::VECTORS_OF_TREE;
 use abbe_core::{Class, LengthUnit, Orientation, VariableKind};
 use abbe_spec::{Spec, Variable};
 
-use super::literal::number;
+use super::operators::number;
 use crate::chain::{Model, lower_pairs};
-use crate::print::layout::{Writer, array, call};
-use crate::print::text::escaped;
+use crate::print::layout::{Writer, array, call, escaped};
 
 /// Types that a generated module defines or imports, and types of the prelude.
 const TAKEN: &str = "Box Class Clone Component Copy Debug Default Description Distribution Drop Effect Eq Err \

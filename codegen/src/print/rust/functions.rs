@@ -5,10 +5,9 @@ use abbe_core::function::Count;
 use abbe_spec::Spec;
 
 use super::operators::Rust;
-use crate::print::expression::{Expression, Value};
+use crate::print::expression::{Expression, Statement, Value};
 use crate::print::flat::Flat;
 use crate::print::layout::{Writer, array, call, fits, pattern, width};
-use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::program::{Array, ArrayRows, Block, Role, Routine, Routines, Row, Stage};
 

@@ -1,14 +1,11 @@
 //! Rust: generic over the scalar, arrays by reference, and checked functions by macros of `abbe`.
 //!
 //! `functions` prints routines, `operators` prints expressions, `face` prints the public items of a
-//! module, and
-//! `module` combines them.
+//! module, and `module` combines them.
 
 mod face;
 mod functions;
-mod literal;
 mod module;
 mod operators;
-mod tables;
 
 pub use module::module;

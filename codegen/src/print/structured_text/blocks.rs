@@ -10,12 +10,12 @@ use super::declarations::{
 };
 use super::operators::{StructuredText, initial, instance, number};
 use super::procedures::BlockPrinter;
+use crate::print::expression::Statement;
 use crate::print::flat::Flat;
 use crate::print::layout::Writer;
 use crate::print::lists::lists;
 use crate::print::procedure::Printer;
 use crate::print::routine::statements;
-use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::program::{Role, Routine, Routines, Row, Stage};
 

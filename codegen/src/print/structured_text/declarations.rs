@@ -5,8 +5,7 @@ use abbe_core::function::Array;
 use abbe_spec::Spec;
 
 use super::operators::initial;
-use crate::print::layout::{Writer, width};
-use crate::print::text::harmless as on_one_line;
+use crate::print::layout::{Writer, harmless as on_one_line, width};
 
 /// Maximum length of a line.
 const LINE: usize = 100;

@@ -1,20 +1,18 @@
 //! IEC 61131-3 Structured Text: function blocks for CODESYS, TwinCAT and other controllers.
 //!
-//! `blocks` prints routines as function blocks, `procedures` statements, `operators` expressions,
-//! `support` the sine and other functions, `tables` lookup tables, `compensated` the corrected
-//! commands, `declarations` variables. Everything is in the common part of the editions of the
-//! standard and of the dialects: no methods, pointers, references or types of its own.
+//! `blocks` prints routines as function blocks, `procedures` statements, lookup tables and the
+//! corrected commands, `operators` expressions, `support` the sine and other functions,
+//! `declarations` variables. Everything is in the common part of the editions of the standard and
+//! of the dialects: no methods, pointers, references or types of its own.
 //!
 //! Invalid operations stop many controllers, so that nothing computes with NaN: a function that
 //! has no value sets `fault`, which becomes a status.
 
 mod blocks;
-mod compensated;
 mod declarations;
 mod operators;
 mod procedures;
 mod support;
-mod tables;
 
 use abbe_spec::Spec;
 
@@ -24,9 +22,7 @@ use self::operators::StructuredText;
 use self::procedures::scalar;
 use self::support::Support;
 use super::header::header;
-use super::layout::Writer;
-use super::source_file::SourceFile;
-use super::text::NOT_CLOSED;
+use super::layout::{NOT_CLOSED, SourceFile, Writer};
 use crate::procedure::Precision;
 use crate::program::Routines;
 
@@ -69,7 +65,7 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
         }
     }
     for (table, name) in spec.tables.iter().zip(&syntax.tables) {
-        tables::function(&mut writer, routines, table, name, &syntax.prefix);
+        procedures::function(&mut writer, routines, table, name, &syntax.prefix);
     }
     // A block stands behind those that it calls.
     let (functions, helpers): (Vec<_>, Vec<_>) =
@@ -78,7 +74,7 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
         block(&mut writer, spec, routines, routine, &syntax);
     }
     if has_compensated {
-        compensated::blocks(&mut writer, spec, routines, &syntax.prefix);
+        procedures::blocks(&mut writer, spec, routines, &syntax.prefix);
     }
     SourceFile { name: format!("{}.st", spec.name), text: writer.finish() }
 }

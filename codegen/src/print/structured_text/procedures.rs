@@ -1,13 +1,25 @@
 //! Statements in Structured Text, and procedures as function blocks.
+//!
+//! Corrected commands in Structured Text.
+//!
+//! The block keeps the corrections of the cycle before itself.
+//!
+//! Lookup tables in Structured Text: a function for each.
 
-use super::declarations::{array_name, array_type, comment, numbers, section, variables};
+use abbe_core::compensator::{CHANGE, LARGEST, bound};
+use abbe_core::function::COMPENSATED;
+use abbe_core::{Description, LookupTable};
+use abbe_spec::Spec;
+use abbe_spec::expr::Table;
+
+use super::declarations::{argument, array_name, array_type, comment, document, numbers, section, variables};
 use super::operators::{instance, number};
 use super::support::Support;
 use crate::print::expression::{Binding, Expression, Value};
 use crate::print::flat::Results;
-use crate::print::layout::{LINE, Writer, width};
-use crate::print::procedure::{Called, Invocation, Printer, arrays};
-use crate::procedure::{Index, Kind, Procedure, Variable};
+use crate::print::layout::{LINE, Writer, escaped, width};
+use crate::print::procedure::{Called, Invocation, Printer, arrays, split};
+use crate::procedure::{Index, Kind, Precision, Procedure, Variable, compensated, look_up};
 use crate::program::{Routine, Routines};
 
 /// Prints a procedure as a function that returns a number. A guarded one has an argument `fault`,
@@ -228,4 +240,90 @@ impl Printer for BlockPrinter<'_> {
             self.assign(own, &format!("{run}.{}", array_name(name)), None);
         }
     }
+}
+
+/// Prints the block of corrected commands, and those that it calls.
+pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, prefix: &str) {
+    let procedures = compensated(spec, Precision::Double).into_iter().map(Procedure::with_loops);
+    let (helpers, cycle) = split(procedures.collect());
+    let mut printer = BlockPrinter { writer, routines, prefix, procedures: &helpers };
+    helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
+    let writer = &mut *printer.writer;
+    writer.blank();
+    comment(writer, COMPENSATED.documentation);
+    writer.lines(&format!("FUNCTION_BLOCK {prefix}_compensated"));
+    interface(writer, spec, &routines.description);
+    let kept = Variable { name: "last", kind: Kind::Array(spec.variables.len()) };
+    let sum = Variable { name: "sum", kind: Kind::Real };
+    declarations(writer, &cycle, prefix, &[kept, sum]);
+    let last = spec.variables.len() - 1;
+    writer.lines(BEGIN.replace("LAST", &last.to_string()).replace("PREFIX", prefix).trim_end());
+    printer.statements(&cycle.body);
+    printer.writer.lines("last := correction;\nEND_FUNCTION_BLOCK");
+}
+
+/// Begins anew, and checks what no other block checks.
+const BEGIN: &str = include_str!("begin.st");
+
+/// Prints inputs and outputs.
+fn interface(writer: &mut Writer, spec: &Spec, description: &Description) {
+    let bounds = |bounds| -> Vec<f64> {
+        description.variables.iter().map(|one| bound(description, one.kind, bounds)).collect()
+    };
+    section(writer, "VAR_INPUT", |writer| {
+        for array in COMPENSATED.arguments.iter().filter(|array| array.name != "last") {
+            let values = match array.name {
+                "change" => bounds(CHANGE),
+                "largest" => bounds(LARGEST),
+                "rotations" => vec![1.0; 3],
+                _ => {
+                    argument(writer, spec, description, array);
+                    continue;
+                }
+            };
+            document(writer, description, array);
+            numbers(writer, array.name, &values);
+        }
+        comment(writer, RESET);
+        writer.lines("reset : BOOL;");
+    });
+    section(writer, "VAR_OUTPUT", |writer| {
+        comment(writer, OUTPUTS);
+        for array in COMPENSATED.results {
+            document(writer, description, array);
+            let values = match array.name {
+                "corrected" => description.variables.iter().map(|variable| variable.home).collect(),
+                _ => vec![0.0; array.len(description)],
+            };
+            numbers(writer, array.name, &values);
+        }
+        writer.lines("status : INT := 1;");
+    });
+}
+
+const RESET: &str =
+    "TRUE begins anew in each cycle, as if no correction preceded: only while the drives do not move.";
+
+const OUTPUTS: &str = "With the statuses 1 to 3 nothing is written, and the outputs are those of the last valid cycle, at first \
+     the home position. With any other status, the commands are within the limits and the bounds, and after is what is left \
+     at them.";
+
+/// Prints the function of a table.
+pub(super) fn function(writer: &mut Writer, routines: &Routines, table: &Table, name: &str, prefix: &str) {
+    let lookup = table.lookup();
+    // Beyond the ends a table may have no value.
+    let is_missing = |(_, piece): &(usize, &[f64; 4])| piece.iter().any(|number| number.is_nan());
+    let missing = lookup.pieces.iter().enumerate().filter(is_missing);
+    let missing: Vec<String> = missing.map(|(piece, _)| format!("(piece = {piece})")).collect();
+    let without = |number: f64| if number.is_nan() { 0.0 } else { number };
+    let pieces: Vec<[f64; 4]> = lookup.pieces.iter().map(|piece| piece.map(without)).collect();
+    let what = format!(
+        "{} Order 0 is the table itself, 1 to 3 a derivative.",
+        table.documentation(&escaped(&table.description))
+    );
+    let procedure = look_up(&LookupTable { pieces: &pieces, ..lookup }, lookup.scale, String::new());
+    writer.blank();
+    comment(writer, &what);
+    let fault = (!missing.is_empty()).then(|| format!("fault := fault OR {};", missing.join(" OR ")));
+    scalar(writer, routines, &procedure, name, prefix, Some(fault.as_deref().unwrap_or("")));
 }

@@ -4,8 +4,7 @@ use abbe_core::Function;
 use abbe_core::compensator::{ITERATIONS, LEVER, Status};
 use abbe_core::function::COMPENSATED;
 
-use super::error::positive;
-use super::machine::Machine;
+use super::machine::{Machine, positive};
 use crate::procedure::build::{Array, Real};
 use crate::procedure::{Body, Condition, Procedure, Value, Whole};
 

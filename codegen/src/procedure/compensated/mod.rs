@@ -1,13 +1,11 @@
 //! The corrected command: the algorithm of [`abbe_core::compensator`] as procedures, by its fixed
 //! number of steps.
 //!
-//! `error` measures how far the real pose is from the ideal one, `shortest` and `single` solve for
-//! the shortest step (in double and in single precision), `departure` takes it within the bounds,
-//! and `cycle` is the algorithm.
+//! `machine` measures how far the real pose is from the ideal one, `shortest` and `single` solve
+//! for the shortest step (in double and in single precision), which `shortest` takes within the
+//! bounds, and `cycle` is the algorithm.
 
 mod cycle;
-mod departure;
-mod error;
 mod machine;
 mod shortest;
 mod single;
@@ -27,11 +25,11 @@ pub fn compensated(spec: &Spec, precision: Precision) -> Vec<Procedure> {
         Precision::Single => single::shortest(&machine),
     };
     vec![
-        error::deviation(&machine),
-        error::weighted(&machine),
-        error::cost(),
+        machine::deviation(&machine),
+        machine::weighted(&machine),
+        machine::cost(),
         shortest,
-        departure::departure(&machine),
+        shortest::departure(&machine),
         cycle::cycle(&machine),
     ]
 }

@@ -9,7 +9,7 @@ use abbe_core::compensator::PASSES;
 
 use super::machine::Machine;
 use crate::procedure::build::Array;
-use crate::procedure::index::below;
+use crate::procedure::value::below;
 use crate::procedure::{Body, Procedure};
 
 const BY_COLUMNS: &str = "Shortest step x, by iterated Tikhonov regularization: each pass adds min |J x - b|^2 + damping^2 |x|^2 of what \

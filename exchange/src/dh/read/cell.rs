@@ -1,15 +1,15 @@
 //! Cell of a table: a number with a unit, or the variable of a joint with a constant.
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::{Diagnostic, Span};
-use abbe_spec::document::Document;
+use abbe_spec::diagnostic::Span;
 use abbe_spec::expr::{Dimension, LARGEST, UNIT_NAMES};
 use abbe_spec::option::{UNITS_MM_DEG, option};
 use abbe_spec::value::parse_value;
+use abbe_spec::{Diagnostic, Document};
 
 use super::columns::{Column, Columns};
 use super::heading::{Quantity, Unit};
-use crate::dh::units::Units;
+use crate::dh::table::Units;
 
 /// Reads cells.
 pub(super) struct Cells<'c> {

@@ -1,9 +1,9 @@
 //! Heading line of a table.
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::diagnostic::Span;
 use abbe_spec::option::DH_MODIFIED;
-use abbe_spec::{DhConvention, Document};
+use abbe_spec::{DhConvention, Diagnostic, Document};
 
 use super::heading::{Heading, Quantity, Unit};
 use super::text::Text;

@@ -8,7 +8,7 @@ use super::cell::Cells;
 use super::heading::Quantity;
 use super::text::Text;
 use crate::import::AngleRounding;
-use crate::import::geometry::{DhRow, Geometry};
+use crate::import::chain::{DhRow, Geometry};
 use crate::placement::Placement;
 
 /// End of the chain: before the first joint, or after the last.

@@ -13,17 +13,15 @@ mod text;
 
 use abbe::LengthUnit;
 use abbe_spec::diagnostic::listed;
-use abbe_spec::notes::Notes;
 use abbe_spec::option::option;
-use abbe_spec::{DhConvention, Document};
+use abbe_spec::{DhConvention, Document, Notes};
 
 use self::cell::Cells;
 use self::columns::Columns;
 use self::text::Text;
-use super::units::Units;
+use super::table::Units;
 use crate::import::AngleRounding;
-use crate::import::chain::{Chain, Frame};
-use crate::import::geometry::Geometry;
+use crate::import::chain::{Chain, Frame, Geometry};
 
 /// Reads a table as a chain.
 ///

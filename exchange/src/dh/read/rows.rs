@@ -1,15 +1,13 @@
 //! Rows of a table as joints.
 
-use abbe_spec::diagnostic::{Diagnostic, Span};
-use abbe_spec::notes::Notes;
-use abbe_spec::{DhConvention, Document, as_identifier};
+use abbe_spec::diagnostic::Span;
+use abbe_spec::{DhConvention, Diagnostic, Document, Notes, as_identifier};
 
 use super::cell::{Amount, Cells};
 use super::heading::Quantity;
 use super::text::Text;
 use crate::import::AngleRounding;
-use crate::import::chain::{Frame, Motion, Variable};
-use crate::import::geometry::{DhRow, Geometry};
+use crate::import::chain::{DhRow, Frame, Geometry, Motion, Variable};
 
 /// Joint of a row.
 pub(super) struct Joint {

@@ -3,9 +3,9 @@
 use abbe_spec::option::DH;
 use std::path::Path;
 
-use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::diagnostic::Span;
 use abbe_spec::number::counted;
-use abbe_spec::{DhConvention, Document};
+use abbe_spec::{DhConvention, Diagnostic, Document};
 
 use super::heading::Heading;
 

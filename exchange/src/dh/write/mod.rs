@@ -8,9 +8,9 @@ mod fit;
 mod text;
 
 use abbe::Pose;
-use abbe_spec::diagnostic::{Diagnostics, listed};
+use abbe_spec::diagnostic::listed;
 use abbe_spec::number::{digits, short};
-use abbe_spec::{DhConvention, DhNumber};
+use abbe_spec::{DhConvention, DhNumber, Diagnostics};
 
 use super::table::DhTable;
 use crate::export::report::{UNCHANGED, nominal_sign, unreadable};

@@ -1,8 +1,7 @@
 //! Text of the spec of a chain.
 //!
-//! `transform` writes where a frame stands, `number` numbers and angles.
+//! `transform` writes where a frame stands, in numbers and angles.
 
-mod number;
 mod transform;
 
 use std::f64::consts::TAU;
@@ -11,10 +10,10 @@ use abbe_spec::as_identifier;
 use abbe_spec::edit::TableText;
 use abbe_spec::edit::write::quoted;
 
-use self::number::{angle, number, quoted_if_expression, three};
 use self::transform::{origin, transform};
 use super::chain::{Chain, Mass, Variable};
 use crate::placement::Placement;
+use transform::{angle, number, quoted_if_expression, three};
 
 /// Writes the spec of a chain; `file` is the name of the file that it comes from.
 pub(super) fn spec(chain: &Chain, file: &str) -> String {

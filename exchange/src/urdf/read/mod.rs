@@ -8,8 +8,7 @@ mod robot;
 mod tree;
 mod xml;
 
-use abbe_spec::document::Document;
-use abbe_spec::notes::Notes;
+use abbe_spec::{Document, Notes};
 
 pub use self::path::Ends;
 use crate::import::{AngleRounding, Chain};

@@ -1,18 +1,15 @@
 //! Chain between two links of a robot.
 
 use abbe::LengthUnit;
-use abbe_spec::as_identifier;
-use abbe_spec::diagnostic::{Diagnostic, listed};
-use abbe_spec::document::Document;
-use abbe_spec::notes::Notes;
+use abbe_spec::diagnostic::listed;
 use abbe_spec::option::{BASE, BASE_LINK, FOLD, NamedOption, TIP, TIP_LINK};
 use abbe_spec::value::find_name;
+use abbe_spec::{Diagnostic, Document, Notes, as_identifier};
 
 use super::robot::{Joint, JointKind, Link, Robot};
 use super::tree::{Step, Tree};
 use crate::import::AngleRounding;
-use crate::import::chain::{Chain, Frame, Mass, Motion, Variable};
-use crate::import::geometry::Geometry;
+use crate::import::chain::{Chain, Frame, Geometry, Mass, Motion, Variable};
 use crate::placement::Placement;
 
 /// Names of the links at the ends of a chain.

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use abbe_spec::diagnostic::{Diagnostic, Span};
-use abbe_spec::document::Document;
+use abbe_spec::diagnostic::Span;
 use abbe_spec::value::find_name;
+use abbe_spec::{Diagnostic, Document};
 
 use super::robot::{Joint, Link, Named, Robot};
 use crate::placement::Placement;

@@ -1,8 +1,8 @@
 //! Parses the XML of a URDF file into links and joints.
 
-use abbe_spec::diagnostic::{Diagnostic, Span};
-use abbe_spec::document::Document;
+use abbe_spec::diagnostic::Span;
 use abbe_spec::visible::alters_text;
+use abbe_spec::{Diagnostic, Document};
 use roxmltree::{Attribute, Node};
 
 use super::robot::{Joint, JointKind, Link, Mimic, Named, Robot};

@@ -9,10 +9,8 @@ use std::path::Path;
 
 use abbe::analysis::sampling;
 use abbe::{Manipulator, Pose, VariableKind};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Document;
-use abbe_spec::mistake;
 use abbe_spec::number::{digits, length};
+use abbe_spec::{Diagnostics, Document, mistake};
 
 use self::edit::{Edited, NewOrigin, three};
 pub use self::tree::write_tree;

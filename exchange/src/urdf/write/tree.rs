@@ -8,15 +8,13 @@
 //! ```
 
 use abbe::{Pose, VariableKind};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Document;
 use abbe_spec::expr::{Elementary, Symbol};
 use abbe_spec::literal::quoted;
 use abbe_spec::option::FROM;
-use abbe_spec::{Closure, Factor, Loop, mistake};
+use abbe_spec::{Closure, Diagnostics, Document, Factor, Loop, mistake};
 
 use super::{Ends, NominalChain, scaled, three};
-use crate::export::tree::moves;
+use crate::export::origins::moves;
 use crate::export::{ExportReport, ExportedFile, RealMachine};
 use crate::placement::roll_pitch_yaw;
 

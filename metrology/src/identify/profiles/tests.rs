@@ -1,18 +1,19 @@
 //! Tests of `profiles.rs`.
 
-use super::covered;
+use core::f64::consts::TAU;
 
-/// A range ends before a gap, and is none if many values are beyond it or if all are at a few
-/// places.
+use super::{HIGHEST, resolved_cycles};
+
+/// Gaps do not reduce the number of cycles, the steps of a grid do, and a small range is refused.
 #[test]
-fn ranges_have_no_gaps() {
-    let dense: Vec<f64> = (0..100).map(|i| 0.01 * f64::from(i)).collect();
-    assert_eq!(covered(&dense, 0.1), Some([0.0, 0.99]));
-    let tail = [&dense[..], &[1.5, 1.55]].concat();
-    assert_eq!(covered(&tail, 0.1), Some([0.0, 0.99]));
-    let halves: Vec<f64> = dense.iter().map(|x| if *x < 0.5 { *x } else { x + 1.0 }).collect();
-    assert_eq!(covered(&halves, 0.1), None);
-    let grid: Vec<f64> = (0..100).map(|i| f64::from(i / 10)).collect();
-    assert_eq!(covered(&grid, 0.1), None);
-    assert_eq!(covered(&dense[..8], 0.1), None);
+fn cycles_are_those_that_the_steps_resolve() {
+    let cycles = |values: &[f64]| resolved_cycles(values, TAU / HIGHEST);
+    let dense: Vec<f64> = (0..600).map(|i| 0.01 * f64::from(i)).collect();
+    assert_eq!(cycles(&dense), Ok(64));
+    let gap: Vec<f64> = dense.iter().copied().filter(|x| !(2.0..2.5).contains(x)).collect();
+    assert_eq!(cycles(&gap), Ok(64));
+    let grid: Vec<f64> = (0..360).map(|i| f64::from(i / 10) * TAU / 36.0).collect();
+    assert_eq!(cycles(&grid), Ok(18));
+    assert_eq!(cycles(&dense[..9]), Err("it turns by 4.6° only".to_owned()));
+    assert_eq!(cycles(&[0.0, 6.0]), Err("its rows are at 2 positions only".to_owned()));
 }

@@ -35,8 +35,8 @@ fn characteristics_are_those_computed_by_hand() {
         (down.systematic.value, value(down.accuracy), value(down.repeatability)),
         (3.0, Some(8.0), Some(8.0))
     );
-    // A = 6 − (−6); E = 4 − (−2); M = 3 − (−1.5); R_1 = 2 + 2 + 1, R_2 = 2 + 4 + 2, R_3 = max(4 + 0 + 1, 8);
-    // B = |4 − 2|; B̄ = (1 + 2 − 1) / 3.
+    // A = 6 − (−6); E = 4 − (−2); M = 3 − (−1.5); R_1 = 2 + 2 + 1, R_2 = 2 + 4 + 2, R_3 = max(4 + 0
+    // + 1, 8); B = |4 − 2|; B̄ = (1 + 2 − 1) / 3.
     assert_eq!(value(both.accuracy), Some(12.0));
     assert_eq!((both.systematic.value, both.mean.value, both.reversal.value), (6.0, 4.5, 2.0));
     assert_eq!(value(both.repeatability), Some(8.0));

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
-use abbe_metrology::identify::{Identify, Prior, Report, Settings};
+use abbe_metrology::identify::{Family, Identify, Prior, Report, Settings};
 use abbe_metrology::measure::Measure;
 use abbe_metrology::plan::{Choice, Plan};
 use abbe_metrology::simulate::{Places, Simulate};
@@ -25,6 +25,11 @@ const TRUTH: [(&str, f64); 6] =
 const FRAMES: [&str; 6] = ["base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"];
 
 fn real() -> Machine {
+    real_with("")
+}
+
+/// Returns the machine with further sources.
+fn real_with(sources: &str) -> Machine {
     let mut text = "\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\n".to_owned();
     for (name, value) in TRUTH {
         let (component, frame) = name.split_at(3);
@@ -32,7 +37,7 @@ fn real() -> Machine {
         let frame = FRAMES[frame.parse::<usize>().unwrap() - 1];
         text += &format!("[[source.effect]]\nframe = \"{frame}\"\n{component} = \"{value} {unit}\"\n");
     }
-    ur5_with(&text)
+    ur5_with(&format!("{text}{sources}"))
 }
 
 /// Returns a map with a ball beside the last axis and the given instruments.
@@ -101,8 +106,12 @@ fn distance(zero: &str, range: &str) -> Map {
 }
 
 fn simulated(map: &Map, samples: usize, seed: u64) -> Data {
+    simulated_by(real(), map, samples, seed)
+}
+
+fn simulated_by(machine: Machine, map: &Map, samples: usize, seed: u64) -> Data {
     let job = Simulate {
-        machine: real(),
+        machine,
         map: map.clone(),
         at: Places::Samples(samples),
         noise: None,
@@ -127,6 +136,16 @@ fn identified_with(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Rep
 }
 
 fn identification(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Result<Report, Diagnostics> {
+    identification_by(&[], map, data, test, prior)
+}
+
+fn identification_by(
+    terms: &[Family],
+    map: &Map,
+    data: Data,
+    test: Option<Data>,
+    prior: f64,
+) -> Result<Report, Diagnostics> {
     let settings = Settings {
         loss: abbe::identify::Loss::Squares,
         prior: Prior::Share(prior),
@@ -140,7 +159,7 @@ fn identification(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Resu
         map: map.clone(),
         data,
         test,
-        terms: Vec::new(),
+        terms: terms.to_vec(),
         harmonics: Vec::new(),
         settings,
         accept: Acceptance::default(),
@@ -263,6 +282,17 @@ fn a_distance_between_sockets_gives_the_scale() {
     let ((found, deviation), (wrong, _)) = (length(&with), length(&wrong));
     assert!((found - 0.6).abs() < 4.0 * deviation && deviation < 0.05, "{found} {deviation}");
     assert!((wrong - found + 425.0 * 0.8 / APART).abs() < 0.05, "{wrong} {found}");
+}
+
+/// Terms are found beside a known distance, without which the scale of the machine is undetermined.
+#[test]
+fn terms_are_found_beside_known_distances() {
+    let gear = "[[source]]\nname = \"gear\"\nclass = \"repeatable\"\njoint = \"q2\"\n\
+                error = \"0.5 mrad * sin(2*q2)\"\n";
+    let rows = simulated_by(real_with(gear), &contacts(), 240, 3);
+    let report = identification_by(&[Family::Joint], &sockets_apart(0.0), rows, None, 0.002).unwrap();
+    let names: Vec<&str> = report.terms.iter().map(|term| &term.name[..]).collect();
+    assert_eq!(names, ["q2: twice per turn of q2, joint error"]);
 }
 
 /// The standard deviation of the length holds over simulated data and distances.

@@ -9,8 +9,8 @@ use abbe_study::bound::ErrorBound;
 use abbe_study::number::{self as numbers, error_unit, fixed, percent, steady};
 use abbe_study::study_file::{Criterion, JudgedMachine};
 
-use super::agreement::agreement_text;
 use super::conclusions::{exact, loop_condition, nearest_dead_point, singular_sentence};
+use super::tables::agreement_text;
 use super::verdict::{by_criterion, stated_probability};
 use crate::document::{Section, Table, first};
 use crate::unit;

@@ -1,13 +1,16 @@
 //! Results in sentences: tolerance, compensation, first-order error.
+//!
+//! The certified upper bound of the worst case.
 
 use abbe::analysis::Measurand;
+use abbe_spec::Spec;
+use abbe_study::analyze::{
+    AfterCompensation, LoopCondition, NEARLY_SINGULAR, NOT_CERTIFIED, RemainingErrors, Report,
+};
+use abbe_study::number::{self, percent, short};
 
-use super::norms;
 use crate::unit::{self, decimals};
 use crate::views::shared::dead_point;
-use abbe_spec::Spec;
-use abbe_study::analyze::{AfterCompensation, LoopCondition, NEARLY_SINGULAR, RemainingErrors, Report};
-use abbe_study::number::{self, percent, short};
 
 /// Returns the results in sentences: tolerance, compensation, first-order
 /// error.
@@ -18,7 +21,7 @@ pub(super) fn conclusions(report: &Report) -> Vec<String> {
         ellipsoid(report),
         published_residual(report),
         report.compensation.as_ref().map(|compensation| residual(report, compensation)),
-        norms::certified_norms(report),
+        certified_norms(report),
         Some(first_order(report)),
         report.loops.as_ref().map(|loops| {
             format!("Loops: {}; {}.", loop_condition(loops), nearest_dead_point(loops, &report.spec))
@@ -175,4 +178,21 @@ pub(super) fn singular_sentence(report: &Report) -> String {
         report.singular(),
         report.configurations,
     )
+}
+
+/// Returns a sentence with the certified bound; `None` if nothing is certified of a chain.
+fn certified_norms(report: &Report) -> Option<String> {
+    if !report.spec.is_serial() {
+        return Some(format!("Certified: nothing; {NOT_CERTIFIED}."));
+    }
+    let norms = report.certified.as_ref()?;
+    let most = number::rounded_up(norms.all_sources()?.certified?, decimals(report));
+    let domain = match norms.contains_more {
+        true => "the enclosing joint box, which is larger than the workspace,",
+        false => "the whole box of the workspace",
+    };
+    let unit = report.spec.length.symbol();
+    Some(format!(
+        "Certified, to first order: over {domain} the worst case over all signs is at most {most} {unit}."
+    ))
 }

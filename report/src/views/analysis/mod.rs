@@ -1,10 +1,7 @@
 //! Error budget: verdict, figures, sources, uncertainty, and what the numbers mean.
 
-mod agreement;
 mod answer;
 mod conclusions;
-mod ledger;
-mod norms;
 mod reference;
 mod tables;
 mod uncertainty;
@@ -171,8 +168,8 @@ fn each_alone(report: &Report) -> Section {
 }
 
 fn ledger(report: &Report) -> Section {
-    let section = Section::full("Ledger").table(ledger::ledger(report));
-    ledger::orientation_ledger(report).into_iter().fold(section, Section::table)
+    let section = Section::full("Ledger").table(tables::ledger(report));
+    tables::orientation_ledger(report).into_iter().fold(section, Section::table)
 }
 
 /// Tabulates the budgets of the GUM; what holds for several is stated once.

@@ -1,13 +1,16 @@
 //! Tables of an error budget.
+//!
+//! Agreement with a published figure, in words.
+//!
+//! The ledger as tables: one row per source, followed by their sums.
 
-use abbe::analysis::{Figures, MonteCarlo};
-use abbe_study::analyze::{Report, SourceReport};
-use abbe_study::number::{self as numbers, fixed, percent, short};
+use abbe::analysis::{Extreme, Figures, Measurand, MonteCarlo};
+use abbe_study::analyze::{Agreement, Ledger, LedgerEntry, Report, SourceReport};
+use abbe_study::number::{self, fixed, percent, short};
 use abbe_study::study_file::{CombinedFigure, Metric, Subject};
 
-use super::agreement::agreement_text;
 use crate::document::{Section, Table};
-use crate::unit::decimals;
+use crate::unit::{self, decimals};
 
 /// Tabulates three metrics of every source, and under each what is published on it, in descending
 /// order of the largest norms.
@@ -16,7 +19,7 @@ pub(super) fn sources(report: &Report) -> Table {
     sources.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
     let mut rows = Vec::new();
     for source in sources {
-        let (class, distribution) = numbers::class(source.class);
+        let (class, distribution) = number::class(source.class);
         let class = distribution.map_or(class.to_owned(), |distribution| format!("{class}, {distribution}"));
         let about = [source.name.clone(), class, source.at.clone()];
         let of = Metric::ALL.into_iter().flat_map(|(name, metric)| {
@@ -131,8 +134,99 @@ pub(super) fn monte_carlo(report: &Report) -> Section {
         "{} draws per configuration, seed {}: quantiles and maximum of the norm of the total error, the share \
          of draws inside the first-order 95 % ellipsoid, which is 95 % if all random sources are normal, and \
          standard deviations.",
-        numbers::short(drawn.draws as f64),
+        number::short(drawn.draws as f64),
         drawn.seed,
     );
     section.table(norms).table(deviations).state("monte_carlo", explained)
+}
+
+/// Returns `met`, or `misses by 4 %`.
+pub(super) fn agreement_text(agreement: Agreement, report: &Report) -> String {
+    match agreement {
+        Agreement::Met => "met".to_owned(),
+        Agreement::Missed { share: Some(share), .. } => {
+            let percent = 100.0 * share.abs();
+            format!("misses by {percent:.*} %", usize::from(percent < 1.0))
+        }
+        Agreement::Missed { difference, .. } => {
+            format!("misses by {}", number::length(difference.abs(), report.spec.length))
+        }
+    }
+}
+
+/// Returns the ledger of position errors as a table.
+pub(super) fn ledger(report: &Report) -> Table {
+    let tolerance = report.study.tolerance;
+    let mut header = vec!["source", ">max", ">RMS", ">share", "worst at (the rest as at home)"];
+    if tolerance.is_some() {
+        header.insert(3, ">of tolerance");
+    }
+    let mut rows = Vec::new();
+    let Ledger { sources, sums } = &report.ledger;
+    for LedgerEntry { name, max, rms, share, configuration, .. } in sources.iter().chain(sums) {
+        let at = report.label_at(configuration.filter(|_| *max > 0.0));
+        let show = |value| fixed(value, decimals(report));
+        let mut cells = vec![
+            name.clone(),
+            show(*max),
+            rms.map(show).unwrap_or_default(),
+            share.map(|share| percent(share, 1.0)).unwrap_or_default(),
+            at,
+        ];
+        if let Some(tolerance) = tolerance {
+            cells.insert(3, percent(*max, tolerance));
+        }
+        rows.push(cells);
+    }
+    let caption = format!(
+        "Norms of the errors of the tool point ({}): the largest, the root mean square, and the share of the judged error",
+        report.spec.length.symbol()
+    );
+    Table::listing(caption, &header, rows)
+}
+
+/// Returns the ledger of orientation errors in mrad, rows 4–6 and their norm; `None` if no source
+/// rotates the tool.
+pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
+    let (errors, combined) = report.budget.errors(Measurand::Orientation);
+    if combined.worst_case_radius.value == 0.0 {
+        return None;
+    }
+    let mut order = errors.iter().collect::<Vec<_>>();
+    order.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
+    let show = |value| unit::fixed(report, Measurand::Orientation, value);
+    let [first, second, third] =
+        unit::row_names(report, Measurand::Orientation).map(|name| format!(">{name}"));
+    let mut header =
+        vec!["source", &first, &second, &third, ">norm", ">RMS", "worst at (the rest as at home)"];
+    let tolerance = report.study.orientation_tolerance;
+    if tolerance.is_some() {
+        header.insert(5, ">of tolerance");
+    }
+    let row = |name: &str, rows: [Option<f64>; 3], norm: Extreme, rms: Option<f64>| {
+        // An error that is constant over the workspace has no worst configuration.
+        let varies = norm.value > rms.unwrap_or_default() * (1.0 + 1e-9);
+        let mut cells = vec![name.to_owned()];
+        cells.extend(rows.map(|row| row.map(show).unwrap_or_default()));
+        cells.extend([show(norm.value), rms.map(show).unwrap_or_default()]);
+        cells.push(report.label_at(norm.configuration.filter(|_| varies)));
+        if let Some(tolerance) = tolerance {
+            cells.insert(5, percent(norm.value, tolerance));
+        }
+        cells
+    };
+    let alone = order.into_iter().map(|alone| {
+        let Figures { x, y, z, norm } = alone.plain_max;
+        let norm = Extreme { value: norm, configuration: alone.worst };
+        row(&report.sources[alone.source].name, [x, y, z].map(Some), norm, Some(alone.rms))
+    });
+    let [repeatable, random, both] = combined.rms.map(Some);
+    let together = [
+        row("repeatable, with signs", combined.repeatable.map(Some), combined.repeatable_radius, repeatable),
+        row("random, root sum of squares", combined.random.map(Some), combined.random_radius, random),
+        row("all together", [None; 3], combined.radius, both),
+    ];
+    let rows = alone.chain(together).collect();
+    let caption = "Rows 4 to 6 of ΔX in mrad, largest over the workspace";
+    Some(Table::listing(caption, &header, rows))
 }

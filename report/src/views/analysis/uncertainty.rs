@@ -75,10 +75,7 @@ pub(super) fn uncertainty_sentences(report: &Report, budget: &UncertaintyBudget)
     let (_, combined) = report.budget.errors(*measurand);
     let estimated = budget.is_estimated();
     let show = |value| unit::with_symbol(report, *measurand, value);
-    let at = report
-        .configuration(budget.configuration)
-        .map(|worst| number::unbroken(&report.label(worst)))
-        .unwrap_or_default();
+    let at = report.label_at(budget.configuration);
     let holds = match coverage.draws {
         None => "U covers 95 % of the errors: all random sources are normal.".to_owned(),
         Some(draws) => format!(

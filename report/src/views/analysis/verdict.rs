@@ -89,8 +89,7 @@ fn tolerance_sentence(
         true => format!(" {}", singular_sentence(report)),
         false => String::new(),
     };
-    let at = report.configuration(verdict.configuration);
-    let at = at.map(|worst| number::unbroken(&report.label(worst))).unwrap_or_default();
+    let at = report.label_at(verdict.configuration);
     let all = compensated.map_or(all, |compensated| compensated.checked);
     let met = if verdict.verdict == Verdict::NotMet { "not met" } else { "met" };
     let normal = if verdict.is_bounded { "" } else { ", normal ones at 3 σ" };

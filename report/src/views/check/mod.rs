@@ -1,7 +1,6 @@
 //! Check: whether the spec is valid, and what it describes.
 
 mod chain;
-mod joint;
 mod tree;
 
 use abbe_spec::{Frame, Input, Spec, Variable};
@@ -10,7 +9,7 @@ use abbe_study::number::{self, counted, quantity, short};
 
 use super::shared::{notes, some};
 use crate::document::{Document, Section, Table, first};
-use joint::joint;
+use tree::joint;
 
 /// Number of joints on the first screen.
 const JOINTS: usize = 8;

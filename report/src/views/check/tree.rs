@@ -1,10 +1,14 @@
 //! Freedoms of a machine with closed loops, and how these close at home.
+//!
+//! Kind, limits and home of a joint.
 
+use std::f64::consts::PI;
+
+use abbe::LengthUnit;
 use abbe_spec::{Spec, Variable};
 use abbe_study::check::{Free, Loop, LoopModes, Mode, State, Tree};
-use abbe_study::number::{self, counted, digits, short};
+use abbe_study::number::{self, counted, digits, quantity, short};
 
-use super::joint::joint;
 use crate::document::{Section, Table, first, joined};
 use crate::views::shared::dead_point;
 
@@ -179,4 +183,17 @@ fn open(gap: Option<f64>, angular_gap: Option<f64>, spec: &Spec) -> String {
     let length = gap.map(|gap| format!("{} {}", digits(gap, 2), spec.length.symbol()));
     let angle = angular_gap.map(|gap| format!("{} rad", digits(gap, 2)));
     length.into_iter().chain(angle).collect::<Vec<_>>().join(" and ")
+}
+
+/// Returns the kind, the limits and the home of a joint, in deg or in the length unit.
+pub(super) fn joint(variable: &Variable, length: LengthUnit) -> [String; 3] {
+    let (kind, scale, unit) =
+        variable.kind.either(("revolute", 180.0 / PI, "deg"), ("prismatic", 1.0, length.symbol()));
+    let [lower, upper] = variable.limits.map(|limit| short(limit * scale));
+    let limits = match variable.limits.map(f64::is_finite) {
+        [false, false] => "no limits".to_owned(),
+        _ if lower == upper => format!("{lower} {unit}"),
+        _ => format!("{lower} … {upper} {unit}"),
+    };
+    [kind.to_owned(), limits, quantity(variable.home * scale, unit)]
 }

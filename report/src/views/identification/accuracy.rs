@@ -145,8 +145,9 @@ pub(super) fn terms(report: &Report) -> Section {
     let (tried, section) = (report.tried, Section::full("Additional terms"));
     if report.terms.is_empty() {
         let line = format!(
-            "None of {tried} additional terms was accepted: none lowers the cross-validation error by \
-             half a percent and significantly."
+            "None of {tried} groups of terms ({}) was accepted: none lowers the cross-validation error \
+             by half a percent and significantly.",
+            report.families
         );
         return section.state("no_term", report.cross_validation.constant.map(|_| line));
     }

@@ -29,7 +29,7 @@ pub(super) fn headline(report: &Report) -> String {
         ),
     };
     let accepted =
-        report.accepted.as_ref().map(|accepted| if accepted.met { "ACCEPTED, " } else { "NOT ACCEPTED, " });
+        report.accepted.as_ref().map(|one| if one.is_met() { "WITHIN LIMITS, " } else { "BEYOND LIMITS, " });
     format!("{}mean {what} {after} on {rows}, {before} as delivered", accepted.unwrap_or_default())
 }
 
@@ -161,10 +161,13 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
     let (factor, unit) = error_unit(report.length);
     let mut facts = vec![("Residual", residuals(report))];
     facts.extend(report.accepted.iter().map(|verdict| ("Limits", accepted(verdict, spec.length).text)));
-    if !report.terms.is_empty() {
-        let names: Vec<&str> = report.terms.iter().map(|term| term.name.as_str()).collect();
-        let text =
-            format!("{} of {} groups of terms accepted: {}", names.len(), report.tried, first(&names, 3));
+    let names: Vec<&str> = report.terms.iter().map(|term| term.name.as_str()).collect();
+    if report.tried > 0 {
+        let tried = format!("{} groups of terms", report.tried);
+        let text = match names.len() {
+            0 => format!("none of {tried} ({}) reduces the cross-validation error", report.families),
+            count => format!("{count} of {tried} accepted: {}", first(&names, 3)),
+        };
         facts.push(("Terms", text));
     }
     if let Some(profiles) = &report.profiles {

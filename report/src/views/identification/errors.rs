@@ -32,6 +32,10 @@ pub(super) fn machine(report: &Report) -> Section {
             digits(1e3 * share, 2)
         )
     });
+    let set_up = (report.found.placed.stations.len() < 2).then_some(
+        "Changes of the machine between set-ups, such as with its temperature, are not included in the \
+         standard deviations; rows of several stations show them.",
+    );
     let joint_errors = report.joint_errors.iter().map(|error| joint_error(error, report));
     Section::full("Errors of the machine")
         .table(estimates(report))
@@ -46,6 +50,7 @@ pub(super) fn machine(report: &Report) -> Section {
             report.magnitudes.iter().map(magnitude).collect(),
         )
         .state("expected", expected)
+        .state("set_up", set_up.map(str::to_owned))
         .state("prior_dominated", prior)
         .state("poorly_determined", poorly_determined(report))
         .state("correlated", correlated)

@@ -26,7 +26,7 @@ fn sentence(group: &Indistinguishable) -> String {
 }
 
 /// Formats a combination, such as `e_r2 − 425 e_y2`.
-pub(super) fn combination(terms: &[(String, f64)]) -> String {
+pub(in crate::views) fn combination(terms: &[(String, f64)]) -> String {
     let mut text = String::new();
     for (name, factor) in terms {
         let size = digits(factor.abs(), 4);

@@ -17,7 +17,7 @@ use crate::figures::residuals::{ErrorNames, Residual, scenes};
 use accuracy::{accuracy, profiles, terms};
 use answer::{answer, headline};
 use errors::machine;
-pub(super) use indistinguishable::indistinguishable;
+pub(super) use indistinguishable::{combination, indistinguishable};
 use places::places;
 
 /// Describes an identification; `spec` and `map` are those of the job.

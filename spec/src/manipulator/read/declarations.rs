@@ -2,8 +2,8 @@
 
 use abbe_core::{LengthUnit, VariableKind};
 
-use super::choices::JOINT_KINDS;
 use super::keys;
+use super::keys::JOINT_KINDS;
 use crate::degrees::check_angle_item;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Document, Item, Section};

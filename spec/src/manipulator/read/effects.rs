@@ -1,16 +1,18 @@
 //! Effects of a source on a frame: given errors, the deflection of a beam, or a compliance, at the
 //! frame or at another place on its link.
+//!
+//! Frames that are named by a tree or a loop: `parent`, and the `frames` of a loop.
 
 use abbe_core::Component;
 
 use super::elastic::{read_beam, read_compliance};
 use super::keys;
-use super::named::BASE;
 use crate::degrees::check_error_of_angle;
-use crate::diagnostic::{Diagnostic, suggestion};
+use crate::diagnostic::{Diagnostic, Span, suggestion};
 use crate::document::{Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, motion, parse_transform};
 use crate::manipulator::{Cause, Effect, Factor, Frame, Tree};
+use crate::value::find_name;
 
 /// Reads the effect of a source, or of one of its `[[source.effect]]` tables.
 pub(super) fn read_effect(section: &Section<'_>, tree: Tree<'_>, scope: &Scope) -> Option<Effect> {
@@ -99,4 +101,51 @@ fn read_errors(section: &Section<'_>, scope: &Scope) -> Option<Vec<(Component, E
         }
     }
     complete.then_some(errors)
+}
+
+/// Name of `F_0` where a frame is named.
+pub(super) const BASE: &str = "base";
+
+/// Name of a frame and its location.
+pub(super) type Named<'a> = (&'a str, Span);
+
+/// Returns the index of the frame that frame `own` hangs on by its `parent`; `None` for the base,
+/// and after a mistake.
+pub(super) fn read_parent(item: &Item<'_>, own: usize, frames: &[Named<'_>]) -> Option<usize> {
+    let parent = frame_or_base(item, frames).flatten()?;
+    if parent < own {
+        return Some(parent);
+    }
+    let (name, declared) = &frames[parent];
+    item.document.fail(if parent == own {
+        Diagnostic::new(item.span(), format!("the frame \"{name}\" cannot hang on itself"))
+            .label("its own name")
+            .help("name an earlier frame, or \"base\" for F_0")
+    } else {
+        Diagnostic::new(item.span(), format!("the frame \"{name}\" is declared later"))
+            .label("a frame hangs on an earlier one")
+            .context(declared.clone(), "declared here")
+            .help(format!("move the [[frame]] \"{name}\" before this one; close loops by a [[loop]]"))
+    })
+}
+
+/// Returns the index of the frame with the name that an item holds; `Some(None)` for the base.
+pub(super) fn frame_or_base(item: &Item<'_>, frames: &[Named<'_>]) -> Option<Option<usize>> {
+    let name = item.string()?;
+    let found = frames.iter().position(|(frame, _)| *frame == name);
+    match found {
+        Some(frame) if name == BASE => item.document.fail(
+            Diagnostic::new(item.span(), "\"base\" is F_0, and also the name of a frame")
+                .label("either of them")
+                .context(frames[frame].1.clone(), "the frame")
+                .help("rename the frame"),
+        ),
+        Some(_) => Some(found),
+        None if name == BASE => Some(None),
+        None => {
+            let known: Vec<&str> = frames.iter().map(|(name, _)| *name).chain([BASE]).collect();
+            find_name(item.document, item.span(), &name, &known, "frame")?;
+            None
+        }
+    }
 }

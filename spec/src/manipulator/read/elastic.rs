@@ -2,8 +2,8 @@
 
 use abbe_core::Component;
 
-use super::choices::BEAM_AXES;
 use super::keys;
+use super::keys::BEAM_AXES;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};

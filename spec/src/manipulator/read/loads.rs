@@ -1,8 +1,8 @@
 //! `[[load]]` and `gravity`: loads on beams and compliances.
 
-use super::choices::{LOAD_AXES, TOOL};
 use super::effects::find_frame;
 use super::keys;
+use super::keys::{LOAD_AXES, TOOL};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};

@@ -1,10 +1,10 @@
 //! `[[loop]]`: conditions that close loops of frames.
 
-use super::choices::CLOSURES;
 use super::declarations::Declarations;
+use super::effects::{Named, frame_or_base};
 use super::keys;
-use super::named::{Named, frame_or_base};
-use super::samples::depends;
+use super::keys::CLOSURES;
+use super::rigid::depends;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Symbol};

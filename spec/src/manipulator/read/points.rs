@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use crate::bounded::{UnreadableFile, not_text};
-use crate::cell::meant;
+use crate::csv_writer::meant;
 use crate::diagnostic::{Diagnostic, Span, suggestion};
 use crate::document::Item;
 use crate::expr::LARGEST as LARGEST_NUMBER;

@@ -2,11 +2,11 @@
 
 use abbe_core::{Class, Distribution};
 
-use super::choices::CLASSES;
 use super::declarations::Declarations;
 use super::deviations::{Chain, read_deviations};
 use super::effects::read_effect;
 use super::keys;
+use super::keys::CLASSES;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Dimension, Expression};

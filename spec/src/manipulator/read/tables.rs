@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::choices::{INTERPOLATIONS, OUTSIDE};
 use super::declarations::Declarations;
 use super::keys;
+use super::keys::{INTERPOLATIONS, OUTSIDE};
 use super::points::{Columns, Points};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Item, Section};

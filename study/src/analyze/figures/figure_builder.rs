@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::bins::Bins;
 use super::errors::Errors;
 use super::extremes::{Envelope, Extremes, Grid};
-use super::figure::FigureData;
-use super::histogram::{Count, Histogram};
+use super::figure::{Count, FigureData, Histogram};
 use super::points::Points;
 use crate::study_file::{Content, Figure, Over};
 

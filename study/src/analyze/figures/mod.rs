@@ -1,8 +1,8 @@
 //! Data of the study's figures, gathered during the sweep.
 //!
 //! `figures_builder` handles all figures and `figure_builder` one. `extremes` holds envelopes over
-//! travels, `points` error clouds, and `histogram` frequencies, all in `bins` that need no range in
-//! advance. `stick` holds the frames at home, and `figure` the result.
+//! travels and `points` error clouds, in `bins` that need no range in advance. `stick` holds the
+//! frames at home, and `figure` the result, also the histograms of frequencies.
 
 mod bins;
 mod errors;
@@ -10,16 +10,14 @@ mod extremes;
 mod figure;
 mod figure_builder;
 mod figures_builder;
-mod histogram;
 mod points;
 mod stick;
 
 pub use abbe::analysis::sampling::norm;
 pub use bins::{Bins, Merge, listed};
 pub use extremes::{Envelope, Extremes, Mesh, Range, Worst};
-pub use figure::{Figure, FigureData, Figures};
+pub use figure::{Count, Figure, FigureData, Figures, Histogram};
 pub(super) use figure_builder::PartialFigure;
 pub(super) use figures_builder::FiguresBuilder;
-pub use histogram::{Count, Histogram};
 pub use points::{Point, Points};
 pub use stick::{FrameOrigin, Stick};

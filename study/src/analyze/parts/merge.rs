@@ -3,7 +3,7 @@
 use abbe_spec::option::{DISABLE, ENABLE, SCALE, SET, SHARD_NUMBER, shard_command};
 use std::sync::Arc;
 
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
 
 use super::part::{Build, Part};
 use super::shard::Shard;

@@ -1,10 +1,9 @@
 //! An analysis divided over several machines. Each sweeps a share of the workspace, and the merged
 //! report is byte for byte that of a single run.
 //!
-//! `request` holds the options and file texts, `shard` identifies a share, `part` holds its data,
-//! and `file` its format. `merge` combines the parts.
+//! `request` holds the options and file texts, `shard` identifies a share, and `part` holds its
+//! data and has their format. `merge` combines the parts.
 
-mod file;
 mod merge;
 mod part;
 mod request;

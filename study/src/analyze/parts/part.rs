@@ -1,16 +1,21 @@
 //! Data gathered over a share of a workspace.
+//!
+//! File format of parts, described in `docs/scale.md`.
+
+use std::path::Path;
 
 use abbe::lanes::InstructionSet;
-use abbe_spec::bounded::Contents;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Diagnostics;
+use abbe_spec::bounded::{Bounded, Contents, UnreadableFile};
+use abbe_spec::option::SHARD;
 use serde::{Deserialize, Serialize};
 
 use super::request::{self, AnalysisRequest};
 use super::shard::Shard;
 use crate::analyze::sweep::PartialAnalysis;
 use crate::finite::finite;
-use crate::mistake;
 use crate::notes::Notes;
+use crate::{hash, mistake};
 
 /// Data gathered over a share of a workspace, with the question that they belong to.
 ///
@@ -74,5 +79,70 @@ impl Part {
     pub fn configurations(&self) -> [usize; 2] {
         let budget = &self.gathered.budget;
         [budget.configurations(), budget.unreachable()]
+    }
+}
+
+/// Prefix of each part file, followed by the format version.
+const BEGINNING: &str = "abbe part ";
+const VERSION: &str = "4";
+/// Length of the checksum line at the end, newline included.
+const CHECKSUM: usize = 65;
+/// Largest file that is read, in bytes.
+const LONGEST: u64 = 1 << 30;
+
+impl Part {
+    /// Returns the file content, three lines: the format version, the part as JSON, and the SHA-256
+    /// of both.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        // Infallible: numbers are finite, and map keys are integers.
+        let json = serde_json::to_string(self).expect("expected a part, which is a JSON file");
+        let content = format!("{BEGINNING}{VERSION}\n{json}\n");
+        let checksum = hash::text(&content);
+        format!("{content}{checksum}\n").into_bytes()
+    }
+
+    /// Parses the output of [`to_bytes`](Self::to_bytes). Mistakes are reported under `name`.
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Diagnostics> {
+        let wrong = |message: &str, help: &str| mistake::with_help(name, message, help);
+        let Some(rest) = bytes.strip_prefix(BEGINNING.as_bytes()) else {
+            return Err(wrong("this is not a part of an analysis", &format!("`{SHARD}` writes one")));
+        };
+        let damaged =
+            || wrong("this part is damaged: its checksum differs", "create it again, or copy it again");
+        let end = rest.iter().take(20).position(|byte| *byte == b'\n').ok_or_else(damaged)?;
+        if &rest[..end] != VERSION.as_bytes() {
+            let version = String::from_utf8_lossy(&rest[..end]);
+            let message =
+                format!("this part has the format {version}, but this version of abbe reads {VERSION}");
+            return Err(wrong(&message, "use one version of abbe for all parts and for the merge"));
+        }
+        let text = std::str::from_utf8(bytes).map_err(|_| damaged())?;
+        let (content, checksum) = text
+            .len()
+            .checked_sub(CHECKSUM)
+            .and_then(|end| text.split_at_checked(end))
+            .ok_or_else(damaged)?;
+        if hash::text(content) + "\n" != checksum {
+            return Err(damaged());
+        }
+        let json = &content[BEGINNING.len() + end + 1..];
+        let part: Result<Self, String> = serde_json::from_str(json).map_err(|error| error.to_string());
+        let checked = part.and_then(|part| part.request.check_draws().map(|()| part));
+        checked.map_err(|message| {
+            wrong(
+                &format!("this part has content that this version of abbe does not write: {message}"),
+                "create it again; use one version of abbe for all parts and for the merge",
+            )
+        })
+    }
+
+    /// Reads a part file.
+    pub fn read(path: &Path) -> Result<Self, Diagnostics> {
+        let bytes = Bounded::read_all(path, LONGEST).map_err(|error| {
+            let UnreadableFile { message, help } =
+                UnreadableFile::from_error(&error, "give the path of a part");
+            mistake::with_help(path.display(), message, help)
+        })?;
+        Self::from_bytes(&path.display().to_string(), &bytes)
     }
 }

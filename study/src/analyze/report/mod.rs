@@ -1,20 +1,15 @@
 //! Report of an analysis.
 //!
 //! Each file is one part of it: `source_report` holds each source alone, `combined` all sources,
-//! `orientation` rows 4–6, `ledger` the ranking, `judged_shares` the parts of the sources,
-//! `tolerance_verdict` the verdicts, `uncertainty_budget` and `source_value` the budget after the
-//! GUM, `comparison` the published figures, `monte_carlo` the draws, and `error_sites` the
-//! names of configurations.
+//! the draws and rows 4–6, `ledger` the ranking and the parts of the sources, `tolerance_verdict`
+//! the verdicts, `uncertainty_budget` the budget after the GUM, `comparison` the published figures,
+//! and `error_sites` the names of configurations.
 
 mod combined;
 mod comparison;
 mod error_sites;
-mod judged_shares;
 mod ledger;
-mod monte_carlo;
-mod orientation;
 mod source_report;
-mod source_value;
 mod tolerance_verdict;
 mod uncertainty_budget;
 
@@ -25,20 +20,19 @@ use abbe_spec::Spec;
 use abbe_spec::option::NamedOption;
 use serde::Serialize;
 
-pub use combined::{CombinedReport, LongestEllipsoid, Radii, RootMeanSquares};
+pub use combined::{
+    CombinedReport, LongestEllipsoid, MonteCarloErrors, MonteCarloReport, OrientationReport,
+    OrientationSource, Radii, RootMeanSquares,
+};
 pub use comparison::{Agreement, Comparison};
 pub(super) use error_sites::ErrorSites;
-pub(super) use judged_shares::JudgedShares;
+pub(super) use ledger::JudgedShares;
 pub use ledger::{Ledger, LedgerEntry};
-pub use monte_carlo::{MonteCarloErrors, MonteCarloReport};
-pub use orientation::{OrientationReport, OrientationSource};
-pub use source_report::SourceReport;
-pub use source_value::Quantity;
-pub(super) use tolerance_verdict::JudgedErrors;
-pub(super) use tolerance_verdict::SEED;
+pub use source_report::{Quantity, SourceReport};
 pub use tolerance_verdict::{
     CompensatedVerdicts, CompensationBasis, MachineVerdicts, ToleranceVerdict, Verdict, Verdicts,
 };
+pub(super) use tolerance_verdict::{JudgedErrors, SEED};
 pub use uncertainty_budget::{SourceUncertainty, UncertaintyBudget};
 
 use super::compensated::CompensatedErrors;
@@ -190,6 +184,11 @@ impl Report {
     /// Returns the configuration of a workspace index in the budget.
     pub fn configuration(&self, index: Option<usize>) -> Option<&Configuration> {
         self.sites.get(index).map(|site| &site.configuration)
+    }
+
+    /// Returns the label of a configuration on one line; nothing if there is none.
+    pub fn label_at(&self, index: Option<usize>) -> String {
+        self.configuration(index).map(|found| number::unbroken(&self.label(found))).unwrap_or_default()
     }
 
     /// Returns the tolerance of a measurand.

@@ -6,7 +6,7 @@ use abbe_spec::{Source, Spec};
 use serde::{Serialize, Serializer};
 
 use super::error_sites::ErrorSites;
-use super::source_value::{Quantity, SourceValue};
+use super::source_report::{Quantity, SourceValue};
 use crate::number::Named;
 
 /// Uncertainty budget at the configuration with the largest combined standard uncertainty of the

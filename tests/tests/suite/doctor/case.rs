@@ -28,12 +28,12 @@ impl Random {
         (self.draw() % count as u64) as usize
     }
 
-    fn between(&mut self, lower: f64, upper: f64) -> f64 {
+    pub(crate) fn between(&mut self, lower: f64, upper: f64) -> f64 {
         lower + (upper - lower) * (self.draw() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Returns a normal number by the Box–Muller method.
-    fn normal(&mut self) -> f64 {
+    pub(crate) fn normal(&mut self) -> f64 {
         (-2.0 * self.between(1e-300, 1.0).ln()).sqrt() * (2.0 * PI * self.between(0.0, 1.0)).cos()
     }
 }

@@ -8,6 +8,8 @@ mod case;
 use std::f64::consts::PI;
 use std::path::Path;
 
+use abbe::Manipulator;
+use abbe::analysis::sampling;
 use abbe_interpreter::Interpreter;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::doctor::{Change, Doctor, Interpretation, Report};
@@ -15,6 +17,7 @@ use abbe_metrology::measure::Measure;
 use abbe_spec::Spec;
 use abbe_study::Machine;
 use abbe_tests::closed_machines::FOUR_BAR;
+use nalgebra::{Rotation3, Vector3};
 
 use case::Mistake::*;
 use case::{ALL, Case, Mistake, Random, case, is_layout, text};
@@ -218,6 +221,57 @@ fn another_tool_stands_in_the_map() {
         assert!(report.of_spec.is_empty() && report.map.as_ref().unwrap().contains("[placement]"));
         map_holds(&report, folder.path());
     }
+}
+
+/// Checks positions alone of a machine that stands elsewhere, with a target elsewhere, whose joints
+/// move by 0.3 to 3 rad about some pose: the base and the target are found, exactly and with noise,
+/// and are said and written.
+#[test]
+fn base_and_target_elsewhere_are_found_by_small_motions() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut random = Random(3);
+    for (i, robot) in ["ur5", "puma560", "iiwa", "wam"].into_iter().cycle().take(16).enumerate() {
+        let spec = text(robot);
+        let parsed = Spec::parse("robot.toml", &spec).unwrap();
+        let unit = 1e-3 / parsed.length.in_metres();
+        let arm = Interpreter::new(parsed.clone());
+        let s = sampling::nominal_parameters(arm.description());
+        let motion = [0.3, 0.6, 1.5, 3.0][i / 4];
+        let noise = if i % 2 == 0 { 0.0 } else { 0.01 * unit };
+        let base = elsewhere(&mut random, 900.0 * unit);
+        let target: [f64; 3] = std::array::from_fn(|_| random.between(-120.0, 120.0) * unit);
+        let middle: Vec<f64> = parsed.variables.iter().map(|_| random.between(-1.5, 1.5)).collect();
+        let names: Vec<&str> = parsed.variables.iter().map(|variable| &*variable.name).collect();
+        let mut rows = format!("{},x,y,z\n", names.join(","));
+        for _ in 0..40 {
+            let q: Vec<f64> = middle.iter().map(|at| at + motion * random.between(-0.5, 0.5)).collect();
+            let point = base.then(&arm.pose(&q, &s).unwrap()).apply(target);
+            let point = point.map(|value| value + noise * random.normal());
+            let cells: Vec<String> = q.iter().chain(&point).map(|value| format!("{value:.9}")).collect();
+            rows += &(cells.join(",") + "\n");
+        }
+        let report = run(&spec, &rows, folder.path());
+        let first = report.found.first().unwrap_or_else(|| panic!("{robot} {motion}: {:?}", report.others));
+        let is_elsewhere = |change: &Change| matches!(change, Change::BaseElsewhere | Change::ToolElsewhere);
+        println!("{robot} {motion}: {} {}", first.residual, first.words);
+        assert!(first.interpretation.changes.iter().all(is_elsewhere), "{robot} {motion}: {}", first.words);
+        assert!(first.residual < 1e-5 * unit + 2.0 * noise, "{robot} {motion}: {}", first.residual);
+        let map = report.map.as_ref().unwrap();
+        assert!(
+            first.words.contains("F_0 stands at (") && map.contains("[[station]]"),
+            "{}\n{map}",
+            first.words
+        );
+        assert!(first.words.contains("in the frame of the tool") && map.contains("targets = "), "{map}");
+    }
+}
+
+/// Returns a random pose, with its position within a distance along each axis.
+fn elsewhere(random: &mut Random, far: f64) -> abbe::Pose {
+    let vector = Vector3::from_fn(|_, _| random.between(-1.8, 1.8));
+    let turn = Rotation3::from_scaled_axis(vector).into_inner();
+    let column = |i: usize| turn.column(i).into_owned().into();
+    abbe::Pose([column(0), column(1), column(2), std::array::from_fn(|_| random.between(-far, far))])
 }
 
 /// Checks a machine with a small zero error: it is found, and the spec is offered if errors of this

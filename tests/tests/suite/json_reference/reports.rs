@@ -2,7 +2,7 @@
 
 /// Name of the report's class in Python, its type, and the commands that print it.
 pub(super) const REPORTS: [(&str, &str, &[&str]); 17] = [
-    ("AllocateReport", "abbe_study::factors::report::Report", &["allocate"]),
+    ("AllocateReport", "abbe_study::factors::Report", &["allocate"]),
     ("AnalyzeReport", "abbe_study::analyze::report::Report", &["analyze", "merge"]),
     ("BoundReport", "abbe_study::bound::report::Report", &["bound"]),
     ("CheckReport", "abbe_study::check::Report", &["check"]),

@@ -4,7 +4,13 @@ use super::{ProfileBasis, ProfileJoint};
 use crate::identify::Unknown;
 
 fn joint(basis: ProfileBasis) -> ProfileJoint {
-    ProfileJoint { variable: 0, error: Unknown::Zero(0), basis, range: [-3.0, 3.0] }
+    ProfileJoint {
+        variable: 0,
+        error: Unknown::Zero(0),
+        basis,
+        range: [-3.0, 3.0],
+        cycles: ProfileBasis::CYCLES,
+    }
 }
 
 #[test]
