@@ -1,6 +1,7 @@
 //! Measurements: the path of a CSV file, or a table in memory; and the jobs on them: evaluation of
 //! a machine, monitoring by repeated checks, simulated measurements, measurement plans, conventions
 //! of data, and runs of an axis of a machine tool or of body diagonals.
+#![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
 use std::path::PathBuf;
 use std::sync::Arc;

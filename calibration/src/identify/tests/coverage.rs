@@ -238,7 +238,7 @@ fn intervals_hold_where_rows_say_little() {
             };
             let size = |k: usize| share(model.unknowns[k]) * priors[k].unwrap();
             let mut truth: Vec<f64> = (0..priors.len()).map(|k| normal(size(k))).collect();
-            let is_zero = |k: &usize| is_error(k) && (k + seed as usize) % each != 0;
+            let is_zero = |k: &usize| is_error(k) && !(k + seed as usize).is_multiple_of(each);
             (0..truth.len()).filter(is_zero).for_each(|k| truth[k] = 0.0);
             let data = measured(&model, &truth, &list, 0.02, &mut random);
             let found = fit(&model, &data, &options(&model, Loss::Squares)).unwrap();
