@@ -24,13 +24,13 @@ pub fn compensation(spec: &Spec, machine: &Description, map: &Map, report: &Repo
         kind: "Corrected commands",
         machine: machine.title.to_string(),
         title: map.title.clone(),
-        headline: match has_sources(machine) {
+        headline: match has_sources(machine) || done < all {
             true => format!("{done} of {all} commands corrected to within {within}"),
             false => format!("nothing to correct in {all} commands"),
         },
         verdict: Some(Verdict {
             is_met: report.complete(),
-            text: match has_sources(machine) {
+            text: match has_sources(machine) || done < all {
                 true => format!("{done} of {all} commands corrected"),
                 false => "The spec has no errors to correct".to_owned(),
             },

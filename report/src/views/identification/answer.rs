@@ -162,12 +162,10 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Residual", residuals(report))];
     facts.extend(report.accepted.iter().map(|verdict| ("Limits", accepted(verdict, spec.length).text)));
     let names: Vec<&str> = report.terms.iter().map(|term| term.name.as_str()).collect();
-    if report.tried > 0 {
-        let tried = format!("{} groups of terms", report.tried);
-        let text = match names.len() {
-            0 => format!("none of {tried} ({}) reduces the cross-validation error", report.families),
-            count => format!("{count} of {tried} accepted: {}", first(&names, 3)),
-        };
+    // What was tried in vain is in the full report.
+    if !names.is_empty() {
+        let text =
+            format!("{} of {} groups of terms accepted: {}", names.len(), report.tried, first(&names, 3));
         facts.push(("Terms", text));
     }
     if let Some(profiles) = &report.profiles {
