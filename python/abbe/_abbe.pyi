@@ -462,7 +462,7 @@ class Machine:
         >>> f"{norm.found:.3f} <= {norm.certified:.3f}", norm.complete
         ('0.155 <= 0.156', True)
         """
-    def measure(self, data: _Measured, map: _Map, *, new_station: bool = False, accept: str | None = None) -> MeasureReport:
+    def measure(self, data: _Measured, map: _Map, *, new_station: bool = False, corrected: bool = False, accept: str | None = None) -> MeasureReport:
         """Evaluates measurements: accuracy and repeatability against the ideal machine, and the
         residuals after its sources.
 
@@ -470,7 +470,8 @@ class Machine:
         polars frame, a pyarrow table; its rows count from 0. Rows that cannot be used are listed in
         `.messages`. `map`: path of the map of the columns, or a shipped name. `new_station`:
         estimate the station of the instrument from the data instead of taking it from the map.
-        `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
+        `corrected`: the rows hold commands that were corrected by this machine's errors. `accept`:
+        limits of the machine such as "mean 0.15 mm, max 0.3 mm".
 
         `.table("rows")` has ΔX of each row, the prediction by the machine with its sources, and
         measured minus predicted; for instruments that read numbers, reading minus prediction and

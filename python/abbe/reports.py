@@ -1512,7 +1512,9 @@ class IdentifyReport(Report):
     """Profiles of joints; none if they were not tried, or do not reduce the cross-validation error significantly."""
 
     drift: ResidualDrift | None
-    """Drift of the residuals with the row order; none if there are too few rows for the test."""
+    """Drift of the residuals with the row order; none if there are too few rows for the test, or where notes doubt
+    some.
+    """
 
     unusable: list[LeftOut]
     """Rows that cannot be used."""
@@ -2201,7 +2203,10 @@ class MeasureReport(Report):
     """Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single configuration."""
 
     drift: ResidualDrift | None
-    """Drift test of the errors minus the repeatable sources; none for too few rows."""
+    """Drift test of the errors minus the repeatable sources; none for too few rows, or where notes doubt some."""
+
+    notes: list[str]
+    """Rows that do not say what the map says of them."""
 
     unusable: int
     """Number of unusable rows."""

@@ -2,12 +2,11 @@
 //! NumPy arrays.
 //!
 //! `machine` is the class `Machine`, `evaluated` its functions, and `commands` its inverse
-//! kinematics and compensation. Each job on a spec has a file with the name of its command, and so
-//! has `identify`; `measured` reads measurements and has the other jobs on them, `exchange` has
+//! kinematics and compensation. Each job has a file with the name of its command; `exchange` has
 //! imports and exports. `functions` evaluates functions: `layout` maps results to arrays, `arrays`
-//! converts arguments, `batch` loops over configurations. `job` checks the arguments of a job and
-//! runs it, `report` is its result, `table` exports tables to Arrow, `part` is a part of an
-//! analysis, and `failure` converts errors to exceptions.
+//! converts arguments, `measured` reads measurements, `batch` loops over configurations. `job`
+//! checks the arguments of a job and runs it, `report` is its result, `table` exports tables to
+//! Arrow, `part` is a part of an analysis, and `failure` converts errors to exceptions.
 
 mod allocate;
 mod analyze;
@@ -17,6 +16,7 @@ mod bound;
 mod check;
 mod commands;
 mod derivatives;
+mod doctor;
 mod evaluated;
 mod exchange;
 mod explore;
@@ -27,9 +27,14 @@ mod identify;
 mod job;
 mod layout;
 mod machine;
+mod measure;
 mod measured;
+mod monitor;
 mod part;
+mod plan;
+mod positioning;
 mod report;
+mod simulate;
 mod table;
 
 /// Compiled part of the package `abbe`.
@@ -46,9 +51,9 @@ mod _abbe {
     #[pymodule_export]
     use super::machine::{Machine, load, restore, shipped};
     #[pymodule_export]
-    use super::measured::positioning;
-    #[pymodule_export]
     use super::part::{Part, merge, restore as restore_part};
+    #[pymodule_export]
+    use super::positioning::positioning;
     #[pymodule_export]
     use super::report::{Report, restore as restore_report};
     #[pymodule_export]

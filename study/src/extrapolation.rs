@@ -97,12 +97,10 @@ impl ToolPointDeviation {
         outside: &[(&[f64], &[f64])],
     ) -> Option<Self> {
         let errors = CalibrationErrors::new(spec);
-        let step = outside.len().div_ceil(SAMPLES).max(1);
         let (mut beyond, mut inside) = (Vec::new(), Vec::new());
         for point in points {
             let prediction = Prediction::new(spec, manipulator, &errors, *point)?;
-            let outside = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
-            beyond.extend(prediction.deviations(outside));
+            beyond.extend(prediction.deviations(some(outside)));
             inside.extend(prediction.deviations(within(spec)));
         }
         let extrapolated_max = beyond.iter().fold(0.0, |most: f64, deviation| most.max(*deviation));
@@ -111,16 +109,14 @@ impl ToolPointDeviation {
 
     /// Returns the root mean square deviation of the tool point at configurations; `None` if the
     /// spec states no covariance.
-    pub fn at<'r>(
+    pub fn at(
         spec: &Spec,
         manipulator: &dyn Manipulator,
-        configurations: impl Iterator<Item = (&'r [f64], &'r [f64])>,
+        configurations: &[(&[f64], &[f64])],
     ) -> Option<f64> {
         let errors = CalibrationErrors::new(spec);
         let prediction = Prediction::new(spec, manipulator, &errors, [0.0; 3])?;
-        let all: Vec<_> = configurations.collect();
-        let some = all.iter().step_by(all.len().div_ceil(SAMPLES).max(1));
-        rms(&prediction.deviations(some.map(|(q, u)| (q.to_vec(), u.to_vec()))))
+        rms(&prediction.deviations(some(configurations)))
     }
 
     fn sentence(&self, spec: &Spec) -> String {
@@ -133,6 +129,12 @@ impl ToolPointDeviation {
              What the model does not have can be larger outside than where it was measured"
         )
     }
+}
+
+/// Returns some of these configurations, evenly chosen.
+fn some(all: &[(&[f64], &[f64])]) -> impl Iterator<Item = (Vec<f64>, Vec<f64>)> {
+    let step = all.len().div_ceil(SAMPLES).max(1);
+    all.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()))
 }
 
 /// Returns a Halton sequence of configurations within the ranges. Names without a range stay

@@ -1,7 +1,10 @@
 //! Measured rows with their errors, for the picture of a page.
 
+use std::sync::Arc;
+
 use abbe::Pose;
 use abbe::identify::Observation;
+use abbe_spec::Spec;
 use serde::Serialize;
 
 /// Largest number of rows on a page.
@@ -18,6 +21,9 @@ pub struct Residuals {
     pub count: usize,
     /// Rows in file order, at most 400.
     pub rows: Vec<Residual>,
+    /// Spec of the machine that was found; none where the rows are those of the given one.
+    #[serde(skip)]
+    pub found: Option<Arc<Spec>>,
 }
 
 /// Row with its errors, in `F_0` and the length unit.
@@ -67,6 +73,6 @@ impl Residuals {
     ) -> Option<Self> {
         let (before, after, count) = (before.map(str::to_owned), after.to_owned(), rows.len());
         let rows: Vec<Residual> = rows.iter().step_by(count.div_ceil(COUNT).max(1)).map(residual).collect();
-        (!rows.is_empty()).then_some(Self { before, after, count, rows })
+        (!rows.is_empty()).then_some(Self { before, after, count, rows, found: None })
     }
 }

@@ -59,7 +59,7 @@ pub fn between_blocks(
 ) -> Result<Option<BetweenBlocks>, Failure> {
     let (kept, x) = fit.of_kept(model);
     let p = x.len();
-    let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &fit.prior.rows, &x);
+    let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &fit.prior, &x);
     let root = problem.a.rows(0, p.min(problem.a.nrows()));
     let Some(l) = root.solve_upper_triangular(&DMatrix::identity(root.nrows(), p)) else { return Ok(None) };
     let groups = Configurations::new(data).rows();
@@ -99,7 +99,7 @@ pub fn between_blocks(
         return Ok(None);
     }
     let freedom = trace * trace / traces;
-    let prior = &fit.prior.scores * &l;
+    let prior = &fit.prior * &l;
     let of_prior = &l * prior.tr_mul(&prior) * l.transpose();
     let covariance = &fit.covariance * square - of_prior * (square - 1.0);
     let within = sums.traces[0].powi(2) / sums.traces[1];

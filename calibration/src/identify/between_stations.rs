@@ -11,8 +11,7 @@
 //!   `−2 l = Σ ln|V_s| + ln|N| + Σ z_sᵀ V_s⁻¹ z_s − gᵀ N⁻¹ g`: Patterson and Thompson, *Recovery of
 //!   inter-block information when block sizes are unequal*, 1971.
 //! - With `B = (Σ R_sᵀ R_s + P)⁻¹`, the covariance of the fitted unknowns is
-//!   `B (Σ R_sᵀ V_s R_s + S) B` with the covariance S of the [scores](super::Prior::scores) of the
-//!   priors; in another series, `τ² D` is added.
+//!   `B (Σ R_sᵀ V_s R_s + P) B`; in another series, `τ² D` is added.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -78,7 +77,7 @@ pub fn between_stations(
         return Ok(None);
     }
     let noise = (squares / freedom).sqrt();
-    let [information, scores] = [&fit.prior.rows, &fit.prior.scores].map(|rows| rows.tr_mul(rows));
+    let information = fit.prior.tr_mul(&fit.prior);
     let varies = fit.identifiable.kept.iter().map(|k| match model.unknowns[*k].is_placement() {
         true => 0.0,
         false => sizes.get(*k).copied().flatten().map_or(0.0, |size| size * size),
@@ -98,9 +97,7 @@ pub fn between_stations(
     let (share, ratio) = best.map_or((0.0, 0.0), |(share, least)| (share, without - least));
     // At the limit τ = 0, the ratio is 0 or χ² with one degree of freedom, each with probability ½.
     let p_value = if ratio > 0.0 { 0.5 * libm::erfc((ratio / 2.0).sqrt()) } else { 1.0 };
-    let Some(covariance) = covariance(&series, noise, share, &varies, [information, scores]) else {
-        return Ok(None);
-    };
+    let Some(covariance) = covariance(&series, noise, share, &varies, &information) else { return Ok(None) };
     Ok(Some(BetweenStations { share, p: p_value, stations: series.len(), covariance }))
 }
 
@@ -156,9 +153,10 @@ fn covariance(
     noise: f64,
     share: f64,
     varies: &DVector<f64>,
-    [mut normal, mut spread]: [DMatrix<f64>; 2],
+    prior: &DMatrix<f64>,
 ) -> Option<DMatrix<f64>> {
     // In units of the stated uncertainty, by which the fit weighted the rows.
+    let (mut normal, mut spread) = (prior.clone(), prior.clone());
     for one in series {
         let r = &one.r * noise;
         normal += r.tr_mul(&r);

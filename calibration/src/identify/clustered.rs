@@ -1,19 +1,19 @@
 //! Covariance of the unknowns from clustered measurements: repeated visits and several targets of a
 //! configuration are not independent.
 //!
-//! With `J` and `r` in units of the uncertainty, `N = JᵀJ`, priors of information `P` with scores
-//! of covariance [`S`](super::Prior::scores), and `B = (N + P)⁻¹`:
+//! With `J` and `r` in units of the uncertainty, `N = JᵀJ`, priors of information `P`, and
+//! `B = (N + P)⁻¹`:
 //!
 //! - One point per configuration, without repeated visits: all numbers are independent,
-//!   `σ² = rᵀr/(n − p)`, `p = tr B N`, and `C = B (σ² N + S) B`.
+//!   `σ² = rᵀr/(n − p)`, `p = tr B N`, and `C = B (σ² N + P) B`.
 //! - Views of a camera: the same, if the noise of single pixels [explains](super::views) the
 //!   residuals; otherwise as poses.
 //! - Points visited repeatedly: visits share the error of the model at the configuration,
 //!   `V_c = τ² 1 1ᵀ + σ_w² I` along each axis. With `S_c` the sum of the rows of `J` of a
 //!   configuration, and means `r̄_c`: `σ_w² = Σ (r − r̄_c)²/(n − m)` for `m` means;
 //!   `τ² = (Σ n_c r̄_c² − σ_w² (m − p))/(n − tr(B Σ S_cᵀ S_c))`, from the expected value of that
-//!   sum. `M = τ² Σ S_cᵀ S_c + σ_w² N`, and `C = B (M + S) B`.
-//! - Several targets, or poses: the sandwich estimator `C = B (Σ g_c g_cᵀ + S) B`,
+//!   sum. `M = τ² Σ S_cᵀ S_c + σ_w² N`, and `C = B (M + P) B`.
+//! - Several targets, or poses: the sandwich estimator `C = B (Σ g_c g_cᵀ + P) B`,
 //!   with `g_c = J_cᵀ (I − H_c)^(−1/2) r_c`, `H_c = J_c B J_cᵀ`: Bell and McCaffrey, *Bias
 //!   reduction in standard errors for linear regression with multi-stage samples*, 2002 (CR2). With
 //!   few configurations per unknown, CR1 is too small and CR3 too large.
@@ -169,7 +169,10 @@ impl Solver<'_> {
             return plain();
         }
         // With Lᵀ N L = 1 − Lᵀ P L.
-        let meat = w.tr_mul(&w) * shared + self.meat(&l, alone);
+        let prior = &self.prior * &l;
+        let prior = prior.tr_mul(&prior);
+        let meat =
+            w.tr_mul(&w) * shared + DMatrix::identity(l.ncols(), l.ncols()) * alone + prior * (1.0 - alone);
         Ok((&l * meat * l.transpose(), (shared + alone).sqrt(), m - p))
     }
 
@@ -216,7 +219,8 @@ impl Solver<'_> {
             let row = l.tr_mul(&DVector::from_column_slice(row));
             meat.ger(1.0, &row, &row, 1.0);
         });
-        meat += self.meat(&l, 0.0);
+        let prior = &self.prior * &l;
+        meat += prior.tr_mul(&prior);
         Ok((&l * meat * l.transpose(), (squares / n.max(1.0)).sqrt()))
     }
 
@@ -229,22 +233,17 @@ impl Solver<'_> {
 
     /// Returns the number of unknowns that the data determine: `tr B N`.
     pub(super) fn effective(&self) -> f64 {
-        let by_prior = self.half().map_or(0.0, |l| (&self.prior.rows * l).norm_squared());
+        let by_prior = self.half().map_or(0.0, |l| (&self.prior * l).norm_squared());
         self.x.len() as f64 - by_prior
     }
 
-    /// Returns `B (σ² N + S) B`.
+    /// Returns `B (σ² N + P) B`.
     pub(super) fn covariance(&self, sigma: f64) -> DMatrix<f64> {
         let p = self.x.len();
         let Some(l) = self.half() else { return DMatrix::from_element(p, p, f64::INFINITY) };
-        &l * self.meat(&l, sigma * sigma) * l.transpose()
-    }
-
-    /// Returns `Lᵀ (σ² N + S) L` for this variance, with `N = B⁻¹ − P`.
-    fn meat(&self, l: &DMatrix<f64>, variance: f64) -> DMatrix<f64> {
-        let [rows, scores] = [&self.prior.rows, &self.prior.scores].map(|rows| rows * l);
-        let data = DMatrix::identity(l.ncols(), l.ncols()) - rows.tr_mul(&rows);
-        data * variance + scores.tr_mul(&scores)
+        let prior = &self.prior * &l;
+        let meat = prior.tr_mul(&prior) * (1.0 - sigma * sigma);
+        &l * (meat + DMatrix::identity(l.ncols(), l.ncols()) * (sigma * sigma)) * l.transpose()
     }
 }
 

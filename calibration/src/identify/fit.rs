@@ -4,7 +4,6 @@ use nalgebra::DMatrix;
 
 use super::clustered::{Independent, Known};
 use super::identifiable::Columns;
-use super::linearize::Prior;
 use super::prior::Basis;
 use super::solver::Solver;
 use super::{Configurations, Failure, Identifiable, Model, Observation, Options, Unknown, identifiable};
@@ -26,8 +25,10 @@ pub struct Fit {
     pub covariance: DMatrix<f64>,
     /// Prior standard deviations of all unknowns.
     pub priors: Vec<Option<f64>>,
-    /// Prior of the kept unknowns, in the order of `identifiable.kept`.
-    pub prior: Prior,
+    /// Rows W of the prior of the kept unknowns x, in the order of `identifiable.kept`: the
+    /// components of `W x` are independent with variance 1. A square matrix; no rows without a
+    /// prior.
+    pub prior: DMatrix<f64>,
     /// Scale that the data chose for the priors of [some unknowns](Options::scaled), which have it;
     /// 1 if there are none.
     pub scale: f64,
@@ -67,8 +68,7 @@ impl Fit {
     /// Returns the indices of kept unknowns whose prior carries more information than the data.
     pub fn weakly_determined(&self) -> Vec<usize> {
         let count = self.identifiable.kept.len();
-        let rows = &self.prior.rows;
-        let root = rows.solve_lower_triangular(&DMatrix::identity(rows.nrows(), count));
+        let root = self.prior.solve_lower_triangular(&DMatrix::identity(self.prior.nrows(), count));
         let hardly = |i: &usize| {
             root.as_ref().is_some_and(|root| 4.0 * self.covariance[(*i, *i)] > root.row(*i).norm_squared())
         };
@@ -154,10 +154,10 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
         false => Some(Basis::new(&plain, data, &at, &seen, &options.priors)?),
     };
     let (identifiable, prior) = match &basis {
-        None => (found, Prior::none(rank)),
+        None => (found, DMatrix::zeros(0, rank)),
         Some(basis) => {
             let (kept, redundant) = (basis.kept.clone(), basis.redundant.clone());
-            (Identifiable { kept, redundant, ..found }, basis.rows(|_| 1.0, |_| 1.0))
+            (Identifiable { kept, redundant, ..found }, basis.rows(&[], 1.0))
         }
     };
     let numbers = model.count(data.iter());
@@ -182,15 +182,9 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let mut solver = Solver::new(&kept, data, start, prior);
     let mut known = solver.solve(options)?;
     let mut scale = 1.0;
-    if let Some(basis) = basis {
-        let is_scaled = |k: usize| options.scaled.contains(&k);
-        if !options.scaled.is_empty() {
-            scale = solver.scale_of_prior(&basis, &options.scaled);
-        }
-        // Where residuals are larger than stated, the rows say less of where base and tool are.
-        let noise = solver.noise().max(1.0);
-        let weighs = |k: usize| if model.unknowns[k].is_placement() { 1.0 / noise } else { 1.0 };
-        solver.set_prior(basis.rows(|k| if is_scaled(k) { scale } else { 1.0 }, weighs));
+    if let Some(basis) = basis.filter(|_| !options.scaled.is_empty()) {
+        scale = solver.scale_of_prior(&basis, &options.scaled);
+        solver.set_prior(basis.rows(&options.scaled, scale));
         known = solver.solve(options)?;
     }
     let cost = solver.cost_of_data();

@@ -128,7 +128,7 @@ pub fn cross_validate(
     let (kept, x) = fit.of_kept(model);
     let parts = triangles(&kept, data, &x, &fit.weights, folds)?;
     let solve = |left_out: usize| {
-        let step = others(&kept, &parts, left_out, &fit.prior.rows, &x)
+        let step = others(&kept, &parts, left_out, &fit.prior, &x)
             .solve(0.0)
             .unwrap_or_else(|| DVector::zeros(x.len()));
         x.iter().zip(step.iter()).map(|(x, step)| x + step).collect::<Vec<f64>>()

@@ -74,7 +74,7 @@ impl LeftOut {
         }
         let rows = chosen_rows(data, fit, folds, NUMBERS / (terms.len() + 1));
         let numbers: usize = rows.iter().flatten().map(|i| data[*i].count()).sum();
-        let always = model.known_distances.len() + fit.prior.rows.nrows();
+        let always = model.known_distances.len() + fit.prior.nrows();
         let mut columns = DMatrix::zeros(numbers + always, terms.len() + 1);
         let (mut at, mut ranges, mut configuration) = (0, Vec::new(), Vec::new());
         let mut x = fit.x.clone();
@@ -110,7 +110,7 @@ impl LeftOut {
             columns[(at, terms.len())] = -residual;
             at += 1;
         });
-        let (prior, (_, kept)) = (&fit.prior.rows, fit.of_kept(model));
+        let (prior, (_, kept)) = (&fit.prior, fit.of_kept(model));
         columns.view_mut((at, 0), prior.shape()).copy_from(prior);
         let right = -(prior * DVector::from_vec(kept));
         columns.view_mut((at, terms.len()), (prior.nrows(), 1)).copy_from(&right);

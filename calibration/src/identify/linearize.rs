@@ -45,24 +45,6 @@ pub(super) fn push_distances(model: &Model, x: &[f64], triangle: &mut Triangle) 
     model.distance_rows(x, |residual, row| triangle.push(row, -residual, 1.0));
 }
 
-/// Prior of the kept unknowns x of a fit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Prior {
-    /// Rows W, by which the fit weighs the unknowns: it minimizes `‖W x‖²` beside the residuals. A
-    /// square matrix; no rows without a prior.
-    pub rows: DMatrix<f64>,
-    /// Rows E of the scores `P x` of the prior with `P = WᵀW`: their covariance is `EᵀE`, which is
-    /// P where the fit weighs by the covariance of x.
-    pub scores: DMatrix<f64>,
-}
-
-impl Prior {
-    /// Returns no prior of this number of unknowns.
-    pub(super) fn none(count: usize) -> Self {
-        Self { rows: DMatrix::zeros(0, count), scores: DMatrix::zeros(0, count) }
-    }
-}
-
 /// Appends the rows `W x` of the prior.
 pub(super) fn with_priors(mut triangle: Triangle, prior: &DMatrix<f64>, x: &[f64]) -> Problem {
     for (row, value) in prior.transpose().column_iter().zip((prior * DVector::from_column_slice(x)).iter()) {

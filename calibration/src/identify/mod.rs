@@ -92,6 +92,7 @@ mod known_distance;
 mod left_out;
 mod linearize;
 mod model;
+mod moved_place;
 mod observation;
 mod options;
 mod outliers;
@@ -136,8 +137,8 @@ pub use instrument::{
     KnownDistance, Observable, Reference, SizeInformation,
 };
 pub use joints_at_values::joints_at_values;
-pub use linearize::Prior;
 pub use model::{Model, ReferenceLength};
+pub use moved_place::{MovedPlace, moved_places};
 pub use observation::{Approach, Measurement, Observation, Uncertainty};
 pub use options::Options;
 pub use profile::{Profile, ProfileBasis, ProfileJoint, Profiles, fit_profiles};

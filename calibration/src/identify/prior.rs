@@ -12,7 +12,6 @@ use abbe_core::{Component, Pose};
 use nalgebra::DMatrix;
 
 use super::identifiable::{Columns, by_preference};
-use super::linearize::Prior;
 use super::solver::Solver;
 use super::triangle::Problem;
 use super::{Failure, Measurement, Model, Observation, Station, Uncertainty, Unknown, Values};
@@ -99,19 +98,17 @@ impl Basis {
         Ok(Self { kept, redundant, root })
     }
 
-    /// Returns W, and rows E of its scores with `EᵀE = P Σ P`, with the standard deviations of the
-    /// unknowns multiplied by a factor; those by which the fit weighs them by one more, which is
-    /// not that of Σ.
-    pub(super) fn rows(&self, factor: impl Fn(usize) -> f64, weighs: impl Fn(usize) -> f64) -> Prior {
+    /// Returns W with the standard deviations of these unknowns multiplied by a scale.
+    pub(super) fn rows(&self, scaled: &[usize], scale: f64) -> DMatrix<f64> {
         let (mut root, count) = (self.root.clone(), self.kept.len());
-        let all = || self.kept.iter().chain(self.redundant.iter().map(|(k, _)| k));
-        root.row_iter_mut().zip(all()).for_each(|(mut row, k)| row *= factor(*k));
-        let mut weighed = root.clone();
-        weighed.row_iter_mut().zip(all()).for_each(|(mut row, k)| row *= weighs(*k));
-        let upper = weighed.qr().unpack_r();
+        let all = self.kept.iter().chain(self.redundant.iter().map(|(k, _)| k));
+        root.row_iter_mut()
+            .zip(all)
+            .filter(|(_, k)| scaled.contains(k))
+            .for_each(|(mut row, _)| row *= scale);
+        let upper = root.qr().unpack_r();
         let rows = upper.transpose().solve_lower_triangular(&DMatrix::identity(count, count));
-        let rows = rows.unwrap_or_else(|| DMatrix::zeros(0, count));
-        Prior { scores: root * rows.tr_mul(&rows), rows }
+        rows.unwrap_or_else(|| DMatrix::zeros(0, count))
     }
 }
 
@@ -207,7 +204,7 @@ impl Solver<'_> {
         let j = self.data_alone.columns(0, p) / noise;
         let y = (self.data_alone.column(p) / noise) + &j * &self.x;
         let likelihood = |log: f64| {
-            let w = basis.rows(|k| if scaled.contains(&k) { log.exp() } else { 1.0 }, |_| 1.0).rows;
+            let w = basis.rows(scaled, log.exp());
             let mut stack = DMatrix::zeros(j.nrows() + w.nrows(), p + 1);
             stack.view_mut((0, 0), j.shape()).copy_from(&j);
             stack.view_mut((0, p), (y.len(), 1)).copy_from(&y);

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::blocks::by_blocks;
 use super::evaluated_model::EvaluatedModel;
-use super::linearize::{Prior, linearize, with_priors};
+use super::linearize::{linearize, with_priors};
 use super::triangle::Problem;
 use super::{Failure, Loss, Model, Observation};
 
@@ -13,7 +13,8 @@ use super::{Failure, Loss, Model, Observation};
 pub(super) struct Solver<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) data: &'a [Observation],
-    pub(super) prior: Prior,
+    /// Rows of the prior.
+    pub(super) prior: DMatrix<f64>,
     pub(super) x: DVector<f64>,
     pub(super) weights: Vec<f64>,
     /// Triangle of the data without priors.
@@ -26,7 +27,12 @@ pub(super) struct Solver<'a> {
 }
 
 impl<'a> Solver<'a> {
-    pub(super) fn new(model: &'a Model<'a>, data: &'a [Observation], start: Vec<f64>, prior: Prior) -> Self {
+    pub(super) fn new(
+        model: &'a Model<'a>,
+        data: &'a [Observation],
+        start: Vec<f64>,
+        prior: DMatrix<f64>,
+    ) -> Self {
         let p = model.unknowns.len();
         Self {
             model,
@@ -54,7 +60,7 @@ impl<'a> Solver<'a> {
     fn linearize(&self, x: &DVector<f64>) -> Result<(DMatrix<f64>, Problem, f64), Failure> {
         let triangle = linearize(self.model, self.data, x.as_slice(), Some(&self.weights))?;
         let data_alone = triangle.clone().finish();
-        let problem = with_priors(triangle, &self.prior.rows, x.as_slice());
+        let problem = with_priors(triangle, &self.prior, x.as_slice());
         let cost = problem.b.norm_squared();
         Ok((data_alone, problem, cost))
     }
@@ -64,11 +70,11 @@ impl<'a> Solver<'a> {
     }
 
     pub(super) fn cost_of_priors(&self, x: &DVector<f64>) -> f64 {
-        (&self.prior.rows * x).norm_squared()
+        (&self.prior * x).norm_squared()
     }
 
-    /// Replaces the prior.
-    pub(super) fn set_prior(&mut self, prior: Prior) {
+    /// Replaces the rows of the prior.
+    pub(super) fn set_prior(&mut self, prior: DMatrix<f64>) {
         (self.prior, self.linearized) = (prior, false);
     }
 

@@ -27,7 +27,7 @@ pub fn variance_components(
 ) -> Result<Vec<VarianceComponent>, Failure> {
     let (kept, x) = fit.of_kept(model);
     let p = x.len();
-    let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &fit.prior.rows, &x);
+    let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &fit.prior, &x);
     let root = problem.a.rows(0, p.min(problem.a.nrows())).transpose();
     let count = model.observables.iter().map(|reading| reading.instrument + 1).max().unwrap_or(2);
     let mut components = vec![VarianceComponent::default(); count];

@@ -160,6 +160,11 @@ fn files_of_another_form_are_refused() {
         ("position (mm),direction,deviation (um)\n0,+,1\n1,+,\n", "line 3: `deviation (um)` is missing"),
         ("position (mm),1+ (um)\n0,1\n0,2\n", "fewer than two target positions"),
         ("position (mm),1+ (um)\n", "there are no readings"),
+        (
+            "0,1,2\n1,1,3\n",
+            "Put a line with 3 names above it, such as `position (mm),direction,deviation (um)`",
+        ),
+        ("0,1,2\n1,1,3\n", "the file has no heading: its first line is numbers"),
     ];
     for (i, (text, message)) in cases.into_iter().enumerate() {
         let file = write(folder.path(), &format!("runs{i}.csv"), text);

@@ -63,6 +63,9 @@ pub struct Report {
     /// Rows outside the fitted ranges, with the uncertainty there; `None` if all rows are within
     /// them.
     pub extrapolated: Option<Extrapolation>,
+    /// The targets are poses of the data.
+    #[serde(skip)]
+    pub of_poses: bool,
     /// Corrected rows, in file order.
     // Empty if `for_each_row` passed them on.
     pub rows: Vec<Row>,
@@ -198,7 +201,8 @@ impl Compensate {
         let configurations = || data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         let extrapolated =
             warn_of_extrapolation(&machine.spec, &*manipulator, &[[0.0; 3]], "rows", configurations(), notes);
-        let deviation = ToolPointDeviation::at(&machine.spec, &*manipulator, configurations());
+        let deviation =
+            ToolPointDeviation::at(&machine.spec, &*manipulator, &configurations().collect::<Vec<_>>());
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
         let base_frame = BaseFramePoses::new(map, &data);
         let (mut row_summary, mut norms) = (RowSummary::default(), [[RunningSums::default(); 2]; 2]);
@@ -231,6 +235,7 @@ impl Compensate {
             mobility: task.mobility,
             held,
             deviation,
+            of_poses: self.poses,
             extrapolated,
             before: NormStatistics::new(&norms[0]),
             after: NormStatistics::new(&norms[1]),
@@ -250,7 +255,10 @@ impl Compensate {
 fn with_held_joints(spec: &Spec, map: &Map) -> (Spec, Vec<String>) {
     let (mut spec, mut held) = (spec.clone(), Vec::new());
     for (variable, channel) in spec.variables.iter_mut().zip(&map.joints) {
-        if let Channel::Fixed(value) = channel {
+        // A value beyond the limits stays a mistake of the rows.
+        if let Channel::Fixed(value) = channel
+            && (variable.limits[0]..=variable.limits[1]).contains(value)
+        {
             variable.limits = [*value; 2];
             held.push(variable.name.clone());
         }

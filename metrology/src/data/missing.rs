@@ -23,11 +23,8 @@ impl Map {
                 name(first),
                 name(last)
             );
-            let help = match header {
-                [] => "the file has no heading".to_owned(),
-                [only] => format!("its heading has one cell, `{}`", only.escape_debug()),
-                _ => format!("the columns are: {there_are}"),
-            };
+            let help =
+                not_a_heading(header, &wanted).unwrap_or_else(|| format!("the columns are: {there_are}"));
             let span = first.span.clone();
             let mistake = Diagnostic { span, ..Diagnostic::whole_file(message) }
                 .label("first missing column")
@@ -54,6 +51,25 @@ impl Map {
                 .help(help)
         });
         Diagnostics { path: self.path.clone(), text: self.text.clone(), list: list.collect() }
+    }
+}
+
+/// Returns why the first line of a file names no columns, and what to do, if it does not. `wanted`
+/// are the names that are looked for.
+pub(super) fn not_a_heading(header: &[String], wanted: &[&str]) -> Option<String> {
+    let is_number = |cell: &String| cell.replace(',', ".").trim().parse::<f64>().is_ok();
+    match header {
+        [] => Some("the file has no heading".to_owned()),
+        [only] if only.contains(char::is_whitespace) => Some(format!(
+            "its cells are separated by blanks: `{}`. Separate them by commas, below a heading",
+            only.escape_debug()
+        )),
+        [only] => Some(format!("its heading has one cell, `{}`", only.escape_debug())),
+        all => all.iter().all(is_number).then(|| {
+            let names = if wanted.len() == all.len() { format!(", such as `{}`", wanted.join(",")) } else { String::new() };
+            let count = all.len();
+            format!("the file has no heading: its first line is numbers. Put a line with {count} names above it{names}")
+        }),
     }
 }
 

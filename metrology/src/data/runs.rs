@@ -9,6 +9,7 @@ use abbe::LengthUnit;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::{Dimension, Unit};
 
+use super::missing::not_a_heading;
 use super::source::{Opened, Source};
 use abbe_study::mistake;
 
@@ -69,7 +70,8 @@ pub(crate) fn runs(source: Source<'_>) -> Result<Runs, Diagnostics> {
     let parts: Vec<(String, Option<&str>)> = heading.iter().map(|cell| split(cell)).collect();
     let find = |names: &[&str]| parts.iter().position(|(own, _)| names.contains(&own.as_str()));
     let Some(position) = find(&POSITION) else {
-        return refuse("no column is named `position`".to_owned(), FORM);
+        let is_none = not_a_heading(&heading, &["position (mm)", "direction", "deviation (um)"]);
+        return refuse("no column is named `position`".to_owned(), is_none.as_deref().unwrap_or(FORM));
     };
     let (direction, diagonal) = (find(&DIRECTION), find(&DIAGONAL));
     let unit = |place: usize| match parts[place].1.map(|text| (text, Unit::named(text))) {

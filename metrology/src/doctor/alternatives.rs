@@ -3,8 +3,8 @@
 use super::kinematics::Kinematics;
 use crate::interpretations::{Chain, Change, SIGNS, Trial};
 
-/// Returns the trials in two stages: single changes and pairs; then all combinations of signs and,
-/// for up to six joints, all permutations.
+/// Returns the trials in two stages: single changes and pairs; then all combinations of signs,
+/// alone and with one coupling, and, for up to six joints, all permutations.
 pub(super) fn stages(kinematics: &Kinematics) -> impl Iterator<Item = Vec<Trial>> {
     let (joint_changes, end_changes) = (joint_changes(kinematics), end_changes(kinematics));
     let pairs = move || {
@@ -14,19 +14,18 @@ pub(super) fn stages(kinematics: &Kinematics) -> impl Iterator<Item = Vec<Trial>
         };
         joint_changes.iter().map(trial).collect()
     };
-    let count = kinematics.kinds().len();
+    let (count, couplings) = (kinematics.kinds().len(), couplings(kinematics));
     let signs_and_orders = move || {
         let ends = [vec![], vec![Change::PoseInverted], vec![Change::BaseElsewhere, Change::ToolElsewhere]];
         let trial = |joints| Trial { joints, ends: ends.to_vec() };
-        signs_and_orders(count).into_iter().map(trial).collect()
+        signs_and_orders(count, &couplings).into_iter().map(trial).collect()
     };
     std::iter::once_with(pairs).chain(std::iter::once_with(signs_and_orders))
 }
 
 /// Returns changes of the joints: none, single ones, and pairs.
 fn joint_changes(kinematics: &Kinematics) -> Vec<Vec<Change>> {
-    let kinds = kinematics.kinds();
-    let count = kinds.len();
+    let count = kinematics.kinds().len();
     let mut all: Vec<Change> = (0..count).map(|joint| Change::Reversed(vec![joint])).collect();
     let pairs = (0..count).flat_map(|j| (0..j).map(move |i| (i, j)));
     all.extend(pairs.map(|(i, j)| Change::exchanged(i, j, count)));
@@ -36,16 +35,19 @@ fn joint_changes(kinematics: &Kinematics) -> Vec<Vec<Change>> {
         all.push(Change::Order((0..count).map(|i| (i + 1) % count).collect()));
         all.push(Change::Order((0..count).map(|i| (i + count - 1) % count).collect()));
     }
-    for joint in 1..count {
-        if kinds[joint] == kinds[joint - 1] {
-            all.extend([1.0, -1.0].map(|by| Change::Coupled { joint, to: joint - 1, by }));
-        }
-    }
+    all.extend(couplings(kinematics));
     all.extend((0..count).map(|joint| Change::Zero { joint, offset: 0.0 }));
     if kinematics.other.is_some() {
         all.push(Change::Convention);
     }
     up_to_pairs(&all)
+}
+
+/// Returns the couplings of joints with those before them.
+fn couplings(kinematics: &Kinematics) -> Vec<Change> {
+    let kinds = kinematics.kinds();
+    let alike = (1..kinds.len()).filter(|joint| kinds[*joint] == kinds[joint - 1]);
+    alike.flat_map(|joint| [1.0, -1.0].map(|by| Change::Coupled { joint, to: joint - 1, by })).collect()
 }
 
 /// Returns changes of base, tool and pose: none, single ones, and pairs.
@@ -106,13 +108,16 @@ fn is_tried_together(joint_changes: &[Change], end_changes: &[Change]) -> bool {
     joint_changes.len() + end_changes.len() <= 2
 }
 
-/// Returns all combinations of more than two signs, and all permutations of four to six joints.
-fn signs_and_orders(count: usize) -> Vec<Vec<Change>> {
+/// Returns all combinations of more than two signs, or of more than one with a coupling, and all
+/// permutations of four to six joints.
+fn signs_and_orders(count: usize, couplings: &[Change]) -> Vec<Vec<Change>> {
     let mut sets = Vec::new();
     if count <= SIGNS {
         let all: Vec<usize> = (0..count).collect();
-        let reversals = Change::reversals(&all).filter(|reversed| reversed.cost() > 2);
-        sets.extend(reversals.map(|reversed| vec![reversed]));
+        let several = |least: usize| Change::reversals(&all).filter(move |signs| signs.cost() >= least);
+        sets.extend(several(3).map(|signs| vec![signs]));
+        let coupled = couplings.iter().flat_map(|one| several(2).map(|signs| vec![signs, one.clone()]));
+        sets.extend(coupled);
     }
     if (4..=6).contains(&count) {
         sets.extend(permutations(count).into_iter().map(|order| vec![Change::Order(order)]));

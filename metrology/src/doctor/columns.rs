@@ -4,7 +4,7 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::{Diagnostics, listed};
 
 use crate::data::{RawTable, Source, raw_table};
-use crate::interpretations::configurations;
+use crate::interpretations::{PoseFormat, configurations};
 use abbe_study::{Notes, mistake};
 
 /// Numeric columns of a file or table.
@@ -19,12 +19,19 @@ pub(super) struct Columns {
     pub(super) pose: Vec<Vec<f64>>,
 }
 
+/// First letters of the names of columns beside a pose, in lower case.
+const OTHERS: [&str; 14] = [
+    "temp", "u95", "sigma", "std", "rms", "time", "load", "mass", "line", "row", "index", "id", "speed",
+    "humid",
+];
+
 /// Smallest number of distinct configurations. With fewer, every interpretation fits.
 const LEAST: usize = 4;
 
 impl Columns {
-    /// Reads the columns. Joint columns are those named as the variables of the spec; unless all of
-    /// these exist, the first columns are. Keeps at most `most` rows, evenly spaced.
+    /// Reads the columns. Joint columns are those named as the variables of the spec, or numbered
+    /// as they are; unless all of these exist, the first columns are. Keeps at most `most` rows,
+    /// evenly spaced.
     pub(super) fn read(
         source: Source<'_>,
         spec: &Spec,
@@ -71,13 +78,20 @@ impl Columns {
             let place = if source.file().is_some() { "line" } else { "row" };
             notes.warn(&format!("an incomplete row is ignored: {place} {line}: {reason}{others}"));
         }
-        let named: Option<Vec<usize>> = spec
-            .variables
-            .iter()
-            .map(|variable| numeric.iter().copied().find(|place| heading[*place] == variable.name))
-            .collect();
-        let joints = named.unwrap_or_else(|| numeric[..count].to_vec());
-        let pose: Vec<usize> = numeric.into_iter().filter(|place| !joints.contains(place)).collect();
+        let names: Vec<&str> = spec.variables.iter().map(|variable| &*variable.name).collect();
+        let joints = named(&heading, &numeric, &names)
+            .or_else(|| numbered(&heading, &numeric, count))
+            .unwrap_or_else(|| numeric[..count].to_vec());
+        let rest: Vec<usize> = numeric.into_iter().filter(|place| !joints.contains(place)).collect();
+        let pose = pose(&heading, &rest);
+        let ignored = rest.iter().filter(|place| !pose.contains(place)).map(|place| &*heading[*place]);
+        let ignored: Vec<&str> = ignored.collect();
+        if !ignored.is_empty() {
+            notes.note(&format!(
+                "columns that are neither joints nor a pose are ignored: {}",
+                listed(&ignored)
+            ));
+        }
         let step = whole.len().div_ceil(most).max(1);
         if step > 1 {
             notes.note(&format!("{} of {} rows are used", whole.len().div_ceil(step), whole.len()));
@@ -103,4 +117,60 @@ impl Columns {
         let names = |places: &[usize]| places.iter().map(|place| heading[*place].clone()).collect();
         Ok(Self { joint_names: names(&joints), pose_names: names(&pose), joints: at, pose: seen })
     }
+}
+
+/// Names of the columns of an orientation, in lower case.
+const ORIENTATIONS: [&[&str]; 8] = [
+    &["rx", "ry", "rz"],
+    &["a", "b", "c"],
+    &["w", "p", "r"],
+    &["roll", "pitch", "yaw"],
+    &["alpha", "beta", "gamma"],
+    &["qx", "qy", "qz", "qw"],
+    &["q0", "q1", "q2", "q3"],
+    &["r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"],
+];
+
+/// Returns the name of a column in lower case, without its unit.
+fn plain(name: &str) -> String {
+    let name = name.to_lowercase();
+    let name = name.split([' ', '[', '(']).find(|part| !part.is_empty()).unwrap_or_default();
+    let units = ["_mm", "_m", "_um", "_deg", "_rad", "_in"];
+    units.iter().find_map(|unit| name.strip_suffix(unit)).unwrap_or(name).to_owned()
+}
+
+/// Returns the columns with these names, in any case of letters.
+fn named(heading: &[String], places: &[usize], names: &[&str]) -> Option<Vec<usize>> {
+    let find = |name: &&str| {
+        let exact = places.iter().find(|place| heading[**place] == *name);
+        exact.or_else(|| places.iter().find(|place| plain(&heading[**place]) == name.to_lowercase())).copied()
+    };
+    names.iter().map(find).collect()
+}
+
+/// Returns the columns of a word with as many numbers as there are joints, such as `J1` … `J6`.
+fn numbered(heading: &[String], places: &[usize], count: usize) -> Option<Vec<usize>> {
+    let words = ["j", "q", "joint", "joint_", "axis", "axis_", "a", "theta", "ax"];
+    let of_word = |word: &str| {
+        let all = |first: usize| {
+            let names: Vec<String> = (first..first + count).map(|i| format!("{word}{i}")).collect();
+            named(heading, places, &names.iter().map(String::as_str).collect::<Vec<_>>())
+        };
+        all(1).or_else(|| all(0))
+    };
+    words.into_iter().find_map(of_word)
+}
+
+/// Returns the columns of a position or a pose: those with the usual names, or all if these name
+/// none. Others beside a named position are no part of it, unless they complete a pose.
+fn pose(heading: &[String], rest: &[usize]) -> Vec<usize> {
+    let Some(position) = named(heading, rest, &["x", "y", "z"]) else { return rest.to_vec() };
+    let orientation = ORIENTATIONS.iter().find_map(|names| named(heading, rest, names));
+    let is_other = |place: &usize| OTHERS.iter().any(|other| plain(&heading[*place]).starts_with(other));
+    let kept: Vec<usize> = match &orientation {
+        Some(orientation) => rest.iter().filter(|place| orientation.contains(place)).copied().collect(),
+        None => rest.iter().filter(|place| !position.contains(place) && !is_other(place)).copied().collect(),
+    };
+    let all = [&position[..], &kept].concat();
+    if PoseFormat::all(all.len()).is_empty() { position } else { all }
 }

@@ -165,9 +165,8 @@ impl File<'_, '_, '_> {
             "origin" => self.origin(placement)?,
             _ => return None,
         };
-        let inverse: Vec<String> =
-            factors.iter().rev().map(|(name, amount)| format!("{name}({})", negative(amount))).collect();
-        Some(format!("transform = {}", quoted(&inverse.join(" "))))
+        let inverse: Vec<_> = factors.into_iter().rev().map(|(name, one)| (name, negative(&one))).collect();
+        Some(format!("transform = {}", quoted(&product(&inverse))))
     }
 
     /// Returns Denavit-Hartenberg parameters as factors, in the order of the convention.
@@ -200,6 +199,41 @@ impl File<'_, '_, '_> {
         Some([three("xyz", ["Tx", "Ty", "Tz"]), turns].concat())
     }
 
+    /// Returns the motion of a joint by an amount in parentheses, as factors: along or about
+    /// `axis`, which is x if none is given.
+    ///
+    /// With `u = Rz(α) Ry(β) e_x`, the motion about u is `Rz(α) Ry(β) Rx(q) Ry(−β) Rz(−α)`.
+    fn motion(
+        &self,
+        kind: VariableKind,
+        axis: Option<&Item<'_>>,
+        amount: &str,
+    ) -> Option<Vec<(String, String)>> {
+        let letter = if kind == VariableKind::Revolute { "R" } else { "T" };
+        let axis = match axis {
+            None => vec![1.0, 0.0, 0.0],
+            Some(axis) => {
+                axis.list().iter().map(|value| self.amount(value).parse().ok()).collect::<Option<_>>()?
+            }
+        };
+        let [x, y, z]: [f64; 3] = axis.try_into().ok()?;
+        let factor = |letter: &str, axis: &str, amount: String| (format!("{letter}{axis}"), amount);
+        let along = |axis: &str, value: f64| {
+            factor(letter, axis, if value < 0.0 { format!("-{amount}") } else { amount.to_owned() })
+        };
+        let turn = |axis: &str, angle: f64| factor("R", axis, format!("{} deg", angle.to_degrees()));
+        let (alpha, beta) = (y.atan2(x), -z.atan2(x.hypot(y)));
+        Some(match [x == 0.0, y == 0.0, z == 0.0] {
+            [false, true, true] => vec![along("x", x)],
+            [true, false, true] => vec![along("y", y)],
+            [true, true, false] => vec![along("z", z)],
+            _ => {
+                let there = [turn("z", alpha), turn("y", beta), along("x", 1.0)];
+                [&there[..], &[turn("y", -beta), turn("z", -alpha)]].concat()
+            }
+        })
+    }
+
     /// Returns the text of a number or expression.
     fn amount(&self, value: &Item<'_>) -> String {
         value.text().unwrap_or(&self.text[value.span()]).to_owned()
@@ -217,11 +251,22 @@ impl File<'_, '_, '_> {
             .collect();
         for (i, frame) in self.frames.iter().enumerate() {
             let placement = placement(frame)?;
-            let variable = spec.frames[i].variable.map(|variable| spec.variables[variable].name.as_str());
-            // With `origin` the joint axis moves implicitly, so that there is no expression to
-            // edit.
-            if placement.key == "origin" && substitutions.iter().any(|(name, _)| variable == Some(name)) {
-                return None;
+            let own = spec.frames[i].variable.map(|variable| &spec.variables[variable]);
+            let substitution = own.and_then(|own| substitutions.iter().find(|(name, _)| *name == own.name));
+            // With `origin` the motion follows from `axis`: an expression needs a product.
+            if let (Some(own), Some((_, amount)), "origin") = (own, substitution, placement.key.as_str()) {
+                let axis = frame.as_table()?.get("axis");
+                let mut factors = self.origin(&placement)?;
+                factors.retain(|(_, amount)| amount.parse() != Ok(0.0));
+                factors.extend(self.motion(own.kind, axis.as_ref(), amount)?);
+                self.edits.replace(whole(&placement), format!("transform = {}", quoted(&product(&factors))));
+                if let Some(axis) = axis {
+                    let span = whole(&axis);
+                    let above = self.text[..span.start].trim_end();
+                    let start = above.strip_suffix(',').unwrap_or(above).len();
+                    self.edits.replace(start..span.end, "");
+                }
+                continue;
             }
             for span in strings(&placement) {
                 self.edits.replace(span.clone(), replace_names(&self.text[span], &substitutions));
@@ -236,6 +281,11 @@ fn strings(item: &Item<'_>) -> Vec<Range<usize>> {
     let entries = item.as_table().into_iter().flat_map(|table| table.items()).chain(item.list());
     let own = item.is_text().then(|| item.span());
     own.into_iter().chain(entries.flat_map(|entry| strings(&entry))).collect()
+}
+
+/// Writes factors as a product.
+fn product(factors: &[(String, String)]) -> String {
+    factors.iter().map(|(name, amount)| format!("{name}({amount})")).collect::<Vec<_>>().join(" ")
 }
 
 /// Splits a product such as `Tx(30 mm) Rz(q1)` into names and amounts.

@@ -6,19 +6,14 @@
 //! the number is a linear combination of constant errors and replaces one of them. This is a change
 //! of basis; the machine stays the same to first order.
 
-use abbe::identify::{Failure, Fit, Model, Observation, Unknown};
+use abbe::identify::{Fit, Model, Unknown};
 use abbe_codegen::graph::Graph;
 use abbe_spec::{ChainNumber, Spec};
 use serde::Serialize;
 
 use super::alternatives::{Alternative, Explanations, Significant};
 use super::chain_numbers::{FrameErrors, chain_numbers, constant_errors, error_unit, is_angle, unknowns_of};
-use super::setup::Setup;
-use super::solve::Solved;
 use super::terms::{self, ErrorSite, Term};
-
-/// Largest number of rows at which two machines are compared.
-const ROWS: usize = 1000;
 
 /// Correlation at and above which a number cannot be distinguished from a magnitude.
 const CORRELATED: f64 = 0.9;
@@ -165,45 +160,6 @@ impl AsJointErrors {
 pub(super) fn number_terms(spec: &Spec) -> Vec<Term> {
     let term = |(_, number)| Term { site: ErrorSite::from_chain_number(number), basis: terms::Basis::One };
     chain_numbers(spec).into_iter().map(term).collect()
-}
-
-impl AsJointErrors {
-    /// Computes the root mean square distance between the points of this model and of the fit, in
-    /// the length unit. It is of second order in the errors.
-    ///
-    /// At most [`ROWS`] of the rows are compared. The last sources of the manipulator must be the
-    /// [`number_terms`].
-    pub(super) fn difference(
-        &self,
-        spec: &Spec,
-        setup: &Setup,
-        solved: &Solved,
-        rows: &[Observation],
-    ) -> Result<f64, Failure> {
-        let Solved { model, fit, .. } = solved;
-        let terms = number_terms(spec);
-        let first = setup.description.sources.len() - terms.len();
-        let other =
-            |(index, value, _): &(usize, f64, f64)| (model.unknowns[fit.identifiable.kept[*index]], *value);
-        let number = |one: &FoundNumber| {
-            let site = ErrorSite::from_chain_number(one.number);
-            let index = terms.iter().position(|term| term.site == site);
-            (Unknown::Magnitude(first + index.unwrap_or_default()), one.value)
-        };
-        let all = self.others.iter().map(other).chain(self.numbers.iter().map(number));
-        let (unknowns, x): (Vec<Unknown>, Vec<f64>) = all.unzip();
-        let converted = setup.real.with(unknowns);
-        let (mut converted, mut fitted) = (converted.at(&x), model.at(&fit.x));
-        let (mut squares, mut points) = (0.0, 0);
-        for row in rows.iter().step_by(rows.len().div_ceil(ROWS)) {
-            let here = converted.deviations(row)?;
-            for (a, b) in here.iter().zip(fitted.deviations(row)?) {
-                squares += (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>();
-                points += 1;
-            }
-        }
-        Ok((squares / f64::from(points.max(1))).sqrt())
-    }
 }
 
 impl FoundNumber {

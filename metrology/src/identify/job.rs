@@ -31,9 +31,10 @@ use super::options::{LOSSES, ONLY, Settings, family_name};
 use super::parameters::{correlated, magnitudes, parameters, redundant};
 use super::plausibility::{check_lengths, tool_note};
 use super::point_residuals::points;
-use super::profiles::find_profiles;
+use super::profiles::{FoundProfiles, find_profiles};
 use super::read_back::{ReadBack, not_read_back, read_back};
 use super::report::{Certainty, CrossValidation, Indices, LeftOut, Parameter, Report, TermGain};
+use super::row_notes::row_notes;
 use super::scale::scale_note;
 use super::setup::Setup;
 use super::solve::Solved;
@@ -130,12 +131,22 @@ impl Identify {
 
         let sets = competing(&spec, &derived, &self.terms, &self.harmonics, &data.observations);
         let input = FitInput { spec: &spec, map, data: &data, settings };
-        let chosen = if sets.is_empty() { Chosen::default() } else { choose(&input, &sets, notes)? };
-        let terms = [leg_terms(&spec), chosen.terms()].concat();
-        let interpreter = input.interpreter(&terms);
-        let (setup, solved) = input.complete_fit(&interpreter, &terms, sets.is_empty(), notes)?;
-        let families = if solved.is_placement() { &[][..] } else { &self.terms };
-        let (found, notes_on_profiles) = find_profiles(families, &input, (&setup, &solved), notes)?;
+        let mut chosen = if sets.is_empty() { Chosen::default() } else { choose(&input, &sets, notes)? };
+        let of_legs = leg_terms(&spec);
+        let mut terms = [of_legs.clone(), chosen.terms()].concat();
+        let [interpreter, without] = [&terms, &of_legs].map(|terms| input.interpreter(terms));
+        let mut modelled = self.modelled(&input, &interpreter, &terms, sets.is_empty(), notes)?;
+        if !chosen.groups.is_empty() && self.terms.contains(&Family::Profile) {
+            // Profiles can explain alone what terms explain in part. That terms were chosen by
+            // these rows does not count in the cross-validation of both.
+            let alone = self.modelled(&input, &without, &of_legs, false, notes)?;
+            let gain = modelled.cross_validated().compared_with(alone.cross_validated());
+            if alone.profiles.is_some() && (gain.gain <= 0.0 || gain.p > CHANCE) {
+                (modelled, terms) = (alone, of_legs);
+                chosen.groups.clear();
+            }
+        }
+        let Modelled { setup, solved, profiles: found, notes: notes_on_profiles } = modelled;
         let profiled = found
             .as_ref()
             .map(|found| FitInput { spec: &found.added_to(&spec), ..input }.interpreter(&terms));
@@ -169,6 +180,44 @@ impl Identify {
     }
 }
 
+/// Probability by chance up to which terms count as better beside profiles.
+const CHANCE: f64 = 0.01;
+
+/// Fit of a model, and the profiles found beside it.
+struct Modelled<'a> {
+    setup: Setup<'a>,
+    solved: Solved<'a>,
+    profiles: Option<FoundProfiles>,
+    /// Notes on the profiles.
+    notes: Vec<String>,
+}
+
+impl Modelled<'_> {
+    /// Returns the position errors of rows that are left out, with the profiles.
+    fn cross_validated(&self) -> &Distances {
+        let profiles = self.profiles.as_ref().map(FoundProfiles::cross_validated);
+        profiles.unwrap_or(&self.solved.cross_validated)
+    }
+}
+
+impl Identify {
+    /// Fits constants and terms, and finds profiles beside them. The interpreter is that of the
+    /// terms.
+    fn modelled<'a>(
+        &self,
+        input: &FitInput,
+        interpreter: &'a Interpreter,
+        terms: &[Term],
+        is_checked: bool,
+        notes: &mut dyn Notes,
+    ) -> Result<Modelled<'a>, Diagnostics> {
+        let (setup, solved) = input.complete_fit(interpreter, terms, is_checked, notes)?;
+        let families = if solved.is_placement() { &[][..] } else { &self.terms };
+        let (profiles, of_profiles) = find_profiles(families, input, (&setup, &solved), notes)?;
+        Ok(Modelled { setup, solved, profiles, notes: of_profiles })
+    }
+}
+
 /// Result of the fit and of the selection.
 struct Identified<'a> {
     setup: &'a Setup<'a>,
@@ -199,24 +248,21 @@ impl CrossValidation {
     }
 }
 
-/// Largest change of the machine by first-order conversion to numbers of the chain, as a share of
-/// the residual.
-const CONVERSION_TOLERANCE: f64 = 0.01;
-
-/// Returns the identified machine and the numbers that were fitted. `left` is the root mean square
-/// error of the fitted rows, `instruments` are those whose uncertainty was estimated.
+/// Returns the identified machine and the numbers that were fitted, as numbers of the chain where
+/// that is possible if they are `converted`. `left` is the root mean square error of the fitted
+/// rows, `estimated` are the instruments whose uncertainty was estimated.
 fn found_model(
     identified: &Identified,
     spec: &Spec,
     data: &Data,
     left: f64,
-    estimated: Vec<InstrumentFit>,
+    estimated: &[InstrumentFit],
+    converted: bool,
 ) -> Result<(FoundModel, Vec<Parameter>), Failure> {
     let Identified { setup, solved, .. } = *identified;
     let (Solved { model, fit, .. }, rows) = (solved, &data.observations);
     let joint_errors = AsJointErrors::new(spec, model, fit);
-    let difference = joint_errors.difference(spec, setup, solved, rows)?;
-    let converted = Some(&joint_errors).filter(|_| difference <= CONVERSION_TOLERANCE * left);
+    let converted = converted.then_some(&joint_errors);
     let explanations = Explanations::new(spec, setup, model, fit);
     let left_of_both = [left, identified.cross_validation.after.rms];
     let found = FoundModel {
@@ -227,7 +273,7 @@ fn found_model(
             true => FoundCovariance::default(),
             false => FoundCovariance::new(setup, solved, converted, rows)?,
         },
-        estimated,
+        estimated: estimated.to_vec(),
         unexplained: unexplained(setup, solved, rows, left)?,
         ..FoundModel::new(spec, solved, converted, data, setup.pose, left_of_both)
     };
@@ -264,10 +310,21 @@ fn report(
     };
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
     let (left, length) = (compared_fit.after.rms, setup.real.uncertainty.length);
-    let estimated = instruments.iter().chain(&coordinates).filter(|one| one.estimated).cloned().collect();
-    let (found, parameters) = found_model(identified, spec, data, left, estimated).map_err(fail)?;
-    let note = |written: &ReadBack| found.read_back_note(spec, [written.figures.rms, left], length);
-    let (read_back_note, written) = match read_back(&found, machine, map, data, |i| fit.is_kept(i)) {
+    let estimated: Vec<InstrumentFit> =
+        instruments.iter().chain(&coordinates).filter(|one| one.estimated).cloned().collect();
+    let found_model = |converted| found_model(identified, spec, data, left, &estimated, converted);
+    let back = |found: &FoundModel| read_back(found, machine, map, data, |i| fit.is_kept(i));
+    let (mut found, mut parameters) = found_model(true).map_err(fail)?;
+    let mut read = back(&found);
+    if let Ok(Some(written)) = &read
+        && written.differs([left, length])
+    {
+        // Numbers of the chain are errors of frames to first order only.
+        (found, parameters) = found_model(false).map_err(fail)?;
+        read = back(&found);
+    }
+    let note = |written: &ReadBack| found.read_back_note(spec, written, [left, length]);
+    let (read_back_note, written) = match read {
         Ok(written) => (written.as_ref().and_then(note), written),
         // The fit is not lost.
         Err(mistake) => (Some(not_read_back(&mistake)), None),
@@ -279,7 +336,10 @@ fn report(
             .to_owned()
     });
     let notes = solved.notes.iter().chain(&chosen.notes[..]).cloned();
+    let of_rows = row_notes(setup, model, &fit.x, rows).map_err(fail)?;
+    let is_doubted = !of_rows.is_empty();
     let notes = notes
+        .chain(of_rows)
         .chain(scale_note(&setup.real, rows, &setup.moved(rows)).map_err(fail)?)
         .chain(unequal_note(&coordinates))
         .chain(tool_note(setup, model, fit))
@@ -327,7 +387,7 @@ fn report(
         tried: chosen.tried,
         families: chosen.families.clone(),
         profiles: solved.profiles.clone(),
-        drift: drift.map(ResidualDrift::new),
+        drift: drift.map(ResidualDrift::new).filter(|_| !is_doubted),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected: fit.rejected(rows).map(|row| row.line).collect(),
         notes: notes.collect(),
@@ -335,6 +395,7 @@ fn report(
         points: if settings.points { points(solved, data, test)? } else { Vec::new() },
         files,
         placed: found.placed.clone(),
+        written: written.map(|written| written.spec().clone()),
         found,
     })
 }

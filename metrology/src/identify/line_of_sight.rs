@@ -35,26 +35,33 @@ pub(crate) fn readable_configurations(
     let sights: Vec<LineOfSight> =
         all.setups().into_iter().map(|(_, read)| LineOfSight::new(setup, all, &read)).collect();
     let mut readable = Vec::new();
-    for (i, configuration) in configurations.into_iter().enumerate() {
-        if readable.len() == most {
+    // A map does not say which side of a board is printed: the other one if none sees this.
+    for side in [1.0, -1.0] {
+        for (i, configuration) in configurations.iter().cloned().enumerate() {
+            if readable.len() == most {
+                break;
+            }
+            // Setups are not taken strictly in turn: the bases of Halton's sequence are periodic
+            // too, and a setup would then see only half of a joint's travel.
+            let turn = (readable.len() as f64 * std::f64::consts::SQRT_2).fract();
+            let sight = &sights[((turn * sights.len() as f64) as usize).min(sights.len() - 1)];
+            // The golden ratio spreads the readings evenly over their ranges.
+            let share = (0.5 + (i / sights.len()) as f64 * 0.618_033_988_749_895).fract();
+            let wanted: Vec<Option<f64>> =
+                sight.wanted.iter().map(|[a, b]| Some(a + share * (b - a))).collect();
+            if let Some(camera) = all.camera {
+                let measured = Measurement::Readings(sight.unread.clone());
+                let view = Observation { measured, ..configuration };
+                readable.extend(with_board_in_view(setup, all, (&camera, side), view, i, &moved)?);
+                continue;
+            }
+            if let Some(q) = joints_at_values(&sight.model, &configuration, &[], &wanted, &moved)? {
+                let measured = Measurement::Readings(sight.unread.clone());
+                readable.push(Observation { q: q.into(), measured, ..configuration });
+            }
+        }
+        if !readable.is_empty() || all.camera.is_none() {
             break;
-        }
-        // Setups are not taken strictly in turn: the bases of Halton's sequence are periodic too,
-        // and a setup would then see only half of a joint's travel.
-        let turn = (readable.len() as f64 * std::f64::consts::SQRT_2).fract();
-        let sight = &sights[((turn * sights.len() as f64) as usize).min(sights.len() - 1)];
-        // The golden ratio spreads the readings evenly over their ranges.
-        let share = (0.5 + (i / sights.len()) as f64 * 0.618_033_988_749_895).fract();
-        let wanted: Vec<Option<f64>> = sight.wanted.iter().map(|[a, b]| Some(a + share * (b - a))).collect();
-        if let Some(camera) = all.camera {
-            let measured = Measurement::Readings(sight.unread.clone());
-            let view = Observation { measured, ..configuration };
-            readable.extend(with_board_in_view(setup, all, &camera, view, i, &moved)?);
-            continue;
-        }
-        if let Some(q) = joints_at_values(&sight.model, &configuration, &[], &wanted, &moved)? {
-            let measured = Measurement::Readings(sight.unread.clone());
-            readable.push(Observation { q: q.into(), measured, ..configuration });
         }
     }
     Ok(readable)
@@ -63,16 +70,30 @@ pub(crate) fn readable_configurations(
 /// Largest angle between the normal of a board and the line of sight for which corners are found.
 const STEEPEST: f64 = 60.0;
 
-/// Moves a configuration to where the ideal camera sees the board; none if it does not reach such a
-/// view. Number `i` chooses place, size and rotation of the board in the image.
+/// Returns a configuration if the ideal camera sees the board there, or moves it to where it does;
+/// none if it does not reach such a view. The board is seen from behind (1) or from where its z
+/// axis points (−1). Number `i` chooses place, size and rotation of the board in the image.
 fn with_board_in_view(
     setup: &Setup,
     all: &Instruments,
-    camera: &Camera,
+    (camera, side): (&Camera, f64),
     view: Observation,
     i: usize,
     moved: &[usize],
 ) -> Result<Option<Observation>, Failure> {
+    let is_in_view = |view: &Observation| -> Result<bool, Failure> {
+        let tool = setup.ideal.at(&[]).pose(view)?;
+        let board = if camera.is_on_tool { tool.inverse() } else { tool };
+        Ok(all.observables.chunks_exact(2).all(|corner| {
+            let point = board.apply(corner[0].corner);
+            let distance = point.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let facing = side * (0..3).map(|k| board.0[2][k] * point[k]).sum::<f64>() / distance;
+            point[2] > 0.0 && camera.is_inside(camera.pixel(point)) && facing > STEEPEST.to_radians().cos()
+        }))
+    };
+    if is_in_view(&view)? {
+        return Ok(Some(view));
+    }
     let mut corners = all.observables.chunks_exact(2);
     let (Some(first), Some(last)) = (corners.next(), corners.next_back()) else { return Ok(None) };
     let [width, height] = camera.image;
@@ -87,15 +108,7 @@ fn with_board_in_view(
     let wanted: Vec<Option<f64>> = ends.as_flattened().iter().map(|pixel| Some(*pixel)).collect();
     let Some(q) = joints_at_values(&model, &view, &[], &wanted, moved)? else { return Ok(None) };
     let view = Observation { q: q.into(), ..view };
-    let tool = setup.ideal.at(&[]).pose(&view)?;
-    let board = if camera.is_on_tool { tool.inverse() } else { tool };
-    let is_in_view = all.observables.chunks_exact(2).all(|corner| {
-        let point = board.apply(corner[0].corner);
-        let distance = point.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let facing = (0..3).map(|k| board.0[2][k] * point[k]).sum::<f64>() / distance;
-        point[2] > 0.0 && camera.is_inside(camera.pixel(point)) && facing > STEEPEST.to_radians().cos()
-    });
-    Ok(is_in_view.then_some(view))
+    Ok(is_in_view(&view)?.then_some(view))
 }
 
 /// Conditions under which the instruments of a setup can be read.
@@ -142,8 +155,13 @@ impl<'a> LineOfSight<'a> {
 }
 
 /// Returns the error that the instruments can be read at no configuration.
-pub(crate) fn nothing_readable(map: &str) -> Diagnostics {
-    let help = "check that the tool can reach `at` (in F_0) with readings within `range`";
+pub(crate) fn nothing_readable(map: &Map) -> Diagnostics {
+    let help = match map.instruments().is_some_and(|all| all.camera.is_some()) {
+        true => {
+            "check `[[station]]`, `[placement]` and `mount`: the camera must see the whole board, not too obliquely"
+        }
+        false => "check that the tool can reach `at` (in F_0) with readings within `range`",
+    };
     let message = "no configuration was found within the joint limits at which these instruments can be read";
-    mistake::with_help(map, message, help)
+    mistake::with_help(map.path(), message, help)
 }

@@ -51,7 +51,9 @@ fn set_uncertainties(root: &Section<'_>, edits: &mut Edits<'_>, map: &Map, estim
         let value = item.as_table().and_then(|table| table.get(key));
         let value = value.filter(|value| value.text() == Some(UNKNOWN[0].0));
         if let (Some(value), Some(one)) = (value, estimated.iter().find(|one| one.name == name)) {
-            edits.replace(value.span(), quantity(digits(one.uncertainty, 3), one.unit));
+            let number = digits(one.uncertainty, 3);
+            // Pixels have no unit in a map.
+            edits.replace(value.span(), if one.unit == "px" { number } else { quantity(number, one.unit) });
         }
     };
     if let Some(head) = root.get("data") {

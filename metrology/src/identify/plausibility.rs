@@ -132,18 +132,16 @@ pub(super) fn check_lengths(
 /// Standard deviation of a place on the tool, as a share of the arm length, from which it is noted.
 const VAGUE: f64 = 1e-3;
 
-/// Returns a note if the position of a target on the tool, or of the measured frame, is far from
-/// where the map states it, or determined poorly: errors of the machine then stand for a part of
-/// it.
+/// Returns a note if the position of a target on the tool, or of the measured frame, is determined
+/// poorly: errors of the machine then stand for a part of it.
 pub(super) fn tool_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<String> {
     let kept = &fit.identifiable.kept;
-    // Squares of value, standard deviation and prior.
     let sizes = |is_own: &dyn Fn(Unknown) -> bool| {
         let own = kept.iter().enumerate().filter(|(_, k)| is_own(model.unknowns[**k]));
-        let prior = |k: usize| fit.priors.get(k).copied().flatten().unwrap_or(f64::INFINITY);
-        let squares = own.map(|(i, k)| [fit.x[*k].powi(2), fit.covariance[(i, i)], prior(*k).powi(2)]);
-        let sums = squares.fold([0.0; 3], |sums, own| std::array::from_fn(|i| sums[i] + own[i]));
-        sums.map(f64::sqrt)
+        let squares = own.map(|(i, k)| (fit.x[*k].powi(2), fit.covariance[(i, i)]));
+        let (value, variance) =
+            squares.fold((0.0, 0.0), |(a, b), (value, variance)| (a + value, b + variance));
+        (value.sqrt(), f64::sqrt(variance))
     };
     let count = model.targets_of(0).len();
     let at =
@@ -159,30 +157,16 @@ pub(super) fn tool_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<Strin
             |unknown| matches!(unknown, Unknown::Tool(placement, c) if placement == i && !c.is_rotation());
         (format!("the measured frame{}", at(i)), sizes(&is_own))
     });
-    let all: Vec<(String, [f64; 3])> = targets.chain(frames).collect();
+    let all = targets.chain(frames);
+    let (name, (value, deviation)) = all.max_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b))?;
     let length = |value: f64| number::length(value, setup.description.length);
-    let open = setup.is_tool_open();
-    let farthest = all.iter().max_by(|(_, [a, ..]), (_, [b, ..])| a.total_cmp(b))?;
-    if let (name, [value, _, prior]) = farthest
-        && *value > DOUBTED * prior
-        && !open
-    {
-        return Some(format!(
-            "note: the position of {name} on the tool comes out {} from the stated one, {} times the standard \
-             deviation that stated places have: the map is wrong there, or the place stands for errors that the \
-             model does not have. State it, `placement = \"exact\"`, or measure with more orientations of the tool",
-            length(*value),
-            number::digits(value / prior, 2)
-        ));
-    }
-    let (name, [value, deviation, _]) = all.iter().max_by(|(_, [_, a, _]), (_, [_, b, _])| a.total_cmp(b))?;
-    (*deviation > VAGUE * setup.arm).then(|| {
+    (deviation > VAGUE * setup.arm).then(|| {
         format!(
             "note: the position of {name} on the tool is determined poorly: {}with a standard deviation of \
              {}. Other places, or errors of the machine, can stand for a part of it. Measure with more \
              orientations of the tool, or state the position: `placement = \"exact\"`",
-            if open { String::new() } else { length(*value) + " from the stated one, " },
-            length(*deviation)
+            if setup.is_tool_open() { String::new() } else { length(value) + " from the stated one, " },
+            length(deviation)
         )
     })
 }

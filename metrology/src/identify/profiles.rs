@@ -192,6 +192,11 @@ fn joint_error(spec: &Spec, setup: &Setup, variable: usize) -> Option<Unknown> {
 }
 
 impl FoundProfiles {
+    /// Returns the position errors of the cross-validation with the profiles.
+    pub(super) fn cross_validated(&self) -> &Distances {
+        &self.fitted.cross_validated
+    }
+
     /// Returns the spec with the profiles as its last tables and sources.
     pub(super) fn added_to(&self, spec: &Spec) -> Spec {
         let mut profiled = spec.clone();

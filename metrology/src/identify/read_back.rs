@@ -56,6 +56,14 @@ pub(super) fn read_back(
     Ok(Some(ReadBack { machine, figures }))
 }
 
+impl ReadBack {
+    /// Returns whether the errors differ from those that the fit leaves, by more than the
+    /// uncertainty of the instrument resolves.
+    pub(super) fn differs(&self, [fit, uncertainty]: [f64; 2]) -> bool {
+        (self.figures.rms - fit).abs() > SAME * fit.max(uncertainty)
+    }
+}
+
 /// Returns the note that the written spec could not be read back.
 pub(super) fn not_read_back(mistake: &Diagnostics) -> String {
     let reason = mistake.list.first().map_or("", |first| &first.message);
@@ -86,10 +94,10 @@ impl FoundModel {
     pub(super) fn read_back_note(
         &self,
         spec: &Spec,
-        [written, fit]: [f64; 2],
-        uncertainty: f64,
+        written: &ReadBack,
+        [fit, uncertainty]: [f64; 2],
     ) -> Option<String> {
-        if (written - fit).abs() <= SAME * fit.max(uncertainty) {
+        if !written.differs([fit, uncertainty]) {
             return None;
         }
         let length = |value| number::length(value, spec.length);
@@ -100,7 +108,7 @@ impl FoundModel {
         Some(format!(
             "note: on the rows of the fit, the written spec leaves a root mean square error of {}, the \
              fit one of {}{reason}",
-            length(written),
+            length(written.figures.rms),
             length(fit)
         ))
     }

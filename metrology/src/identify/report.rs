@@ -1,7 +1,10 @@
 //! Report of an identification.
 
+use std::sync::Arc;
+
 use abbe::Pose;
 use abbe::identify::{Fit, Independent, deviation_beyond, student_factor};
+use abbe_spec::Spec;
 use serde::Serialize;
 
 use super::as_joint_errors::JointError;
@@ -107,7 +110,8 @@ pub struct Report {
     /// Profiles of joints; none if they were not tried, or do not reduce the cross-validation error
     /// significantly.
     pub profiles: Option<JointProfiles>,
-    /// Drift of the residuals with the row order; none if there are too few rows for the test.
+    /// Drift of the residuals with the row order; none if there are too few rows for the test, or
+    /// where notes doubt some.
     pub drift: Option<ResidualDrift>,
     /// Rows that cannot be used.
     pub unusable: Vec<LeftOut>,
@@ -127,6 +131,9 @@ pub struct Report {
     /// Identified machine.
     #[serde(skip)]
     pub found: FoundModel,
+    /// Spec of the identified machine as it is written; none if the given one has changes.
+    #[serde(skip)]
+    pub written: Option<Arc<Spec>>,
 }
 
 impl Report {
@@ -142,11 +149,12 @@ impl Report {
         let stations: Vec<Pose> = poses.collect();
         let is_fitted = |point: &&PointResidual| !point.is_test && !point.is_rejected;
         let fitted: Vec<&PointResidual> = self.points.iter().filter(is_fitted).collect();
-        Residuals::new(Some("base and tool fitted"), "identified", &fitted, |point| {
+        let residuals = Residuals::new(Some("base and tool fitted"), "identified", &fitted, |point| {
             let PointResidual { line, point: at, before, after, .. } = **point;
             let (q, u) = (point.q.clone(), point.u.clone());
             Residual { line, q, u, point: at, before: Some(before), after }.in_f0(&stations[point.station])
-        })
+        });
+        Some(Residuals { found: self.written.clone(), ..residuals? })
     }
 }
 

@@ -3,17 +3,14 @@
 //! The measurements are `M_i = X P_i Y` with predicted poses `P_i`. The rotations between rows do
 //! not depend on Y: `log(M_i M_jᵀ) = R_X log(P_i P_jᵀ)`. So `R_X` is the rotation between two sets
 //! of vectors, `R_Y` the mean of the remaining rotations, and both translations follow from linear
-//! equations. With positions alone, the tool point and the base are fitted alternately, which
-//! converges slowly, then both together: with `x_i = X P_i y` and the rotation `R_i` of `X P_i`,
-//! `δx_i = δθ × (x_i − c) + δb + R_i δy` about the centroid c (Levenberg and Marquardt).
+//! equations. With positions alone, base and tool point are fitted together from the base alone:
+//! with `x_i = X P_i y` and the rotation `R_i` of `X P_i`, `δx_i = δθ × (x_i − c) + δb + R_i δy`
+//! about the centroid c (Levenberg and Marquardt).
 
 use abbe::Pose;
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, SMatrix, SVector, Vector3};
 
-/// Number of alternating fits of tool point and base at the start.
-const TURNS: usize = 3;
-
-/// Largest number of steps of both together.
+/// Largest number of steps.
 const STEPS: usize = 30;
 
 /// Returns the predicted poses with base, tool or both fitted; and the fitted pose of `F_0` in the
@@ -40,10 +37,6 @@ pub(super) fn registered(
 /// Returns `X P_i Y` with a translation Y, fitted to positions, and Y.
 fn with_base_and_point(predicted: &[Pose], measured: &[Pose], lever: f64) -> Option<(Vec<Pose>, Pose)> {
     let (mut moved, mut tool) = (with_base(predicted, measured, false, lever)?, Pose::IDENTITY);
-    for _ in 0..TURNS {
-        let (next, step) = with_tool(&moved, measured, false)?;
-        (moved, tool) = (with_base(&next, measured, false, lever)?, tool.then(&step));
-    }
     let away = |moved: &[Pose]| -> f64 {
         moved.iter().zip(measured).map(|(a, b)| (vector(b.0[3]) - vector(a.0[3])).norm_squared()).sum()
     };

@@ -19,7 +19,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::data::{Data, Instruments, Map, Summary, Table};
-use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_large};
+use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, row_notes, too_large};
 use crate::running_sums::RunningSums;
 use crate::{Acceptance, AcceptanceVerdict, Judged};
 use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
@@ -80,8 +80,11 @@ pub struct Report {
     /// Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single
     /// configuration.
     pub standard_error: Option<f64>,
-    /// Drift test of the errors minus the repeatable sources; none for too few rows.
+    /// Drift test of the errors minus the repeatable sources; none for too few rows, or where notes
+    /// doubt some.
     pub drift: Option<ResidualDrift>,
+    /// Rows that do not say what the map says of them.
+    pub notes: Vec<String>,
     /// Number of unusable rows.
     pub unusable: usize,
     /// Stated date, persons and instruments, and the version of abbe; absent if nothing is stated.
@@ -233,6 +236,8 @@ impl Measure {
         }
         let drift = drift(&setup.real, rows, &[])
             .map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
+        let of_rows = row_notes(&setup, &setup.real, &[], rows)
+            .map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
         let file = evaluated.data.file.clone();
         let report = Report {
             name: machine.spec.name.clone(),
@@ -250,7 +255,8 @@ impl Measure {
             repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets_of(0).len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),
-            drift: drift.map(ResidualDrift::new),
+            drift: drift.map(ResidualDrift::new).filter(|_| of_rows.is_empty()),
+            notes: of_rows,
             unusable: evaluated.data.unusable.len(),
             record: map.record.with_options(self.options()),
             file: evaluated.data.summary(),

@@ -169,7 +169,7 @@ impl Plan {
         let most = list.len();
         let readable = readable_configurations(setup, &self.map, list, most);
         let readable = readable.map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
-        if readable.is_empty() { Err(nothing_readable(self.map.path())) } else { Ok(readable) }
+        if readable.is_empty() { Err(nothing_readable(&self.map)) } else { Ok(readable) }
     }
 
     fn choose(

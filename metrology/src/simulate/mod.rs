@@ -258,7 +258,7 @@ impl Simulate {
         let observations = readable_configurations(setup, &self.map, rows.collect(), count)
             .map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
         if observations.is_empty() {
-            return Err(nothing_readable(self.map.path()));
+            return Err(nothing_readable(&self.map));
         }
         let file = SAMPLES.to_string();
         Ok(Data { file, observations, stations: stations.clone(), ..Data::default() })

@@ -128,7 +128,8 @@ fn a_camera_identifies_the_machine_on_tool_and_in_room() {
     for (mount, intrinsics) in [("tool", "known"), ("room", "known"), ("tool", "fitted")] {
         let case = format!("{mount}, {intrinsics}");
         let truth = parsed(&map_text(mount, "0.2", "known", places(mount)));
-        let map = map_text(mount, "0.2", intrinsics, "");
+        let pixels = if intrinsics == "fitted" { "\"unknown\"" } else { "0.2" };
+        let map = map_text(mount, pixels, intrinsics, "");
         let map = match intrinsics {
             "known" => map,
             _ => map
@@ -191,6 +192,32 @@ fn planned_views_predict_the_identification() {
     let plan = Plan { map: blind, ..plan };
     let mistake = plan.run(&mut ()).unwrap_err().to_string();
     assert!(mistake.contains("where the camera and the board are"), "{mistake}");
+}
+
+/// A camera that four axes cannot turn at will sees the board from where it does.
+#[test]
+fn views_of_a_camera_on_four_axes_are_planned() {
+    let machine = Machine::find("scara").unwrap();
+    let joints: String = [("q1", "deg"), ("q2", "deg"), ("d3", "mm"), ("q4", "deg")]
+        .map(|(name, unit)| format!("{name} = {{ column = \"{name}\", unit = \"{unit}\" }}\n"))
+        .concat();
+    let text = format!(
+        "[data]\n[joints]\n{joints}\n[[instrument]]\nname = \"camera\"\nkind = \"camera\"\nmount = \"tool\"\n\
+         pixels = [\"u\", \"v\"]\nboard = [5, 4]\npitch = \"25 mm\"\nimage = [1280, 1024]\nfocal = [1200, 1200]\n\
+         uncertainty = 0.1\n[[station]]\nposition = [\"-200 mm\", \"-40 mm\", \"420 mm\"]\n\
+         quaternion = [0.988771078, 0, 0, -0.149438132]\n[placement]\n\
+         position = [\"40 mm\", \"-25 mm\", \"15 mm\"]\nquaternion = [0, 1, 0, 0]\n"
+    );
+    let map = Map::parse("map.toml", &text, &machine.spec).unwrap();
+    let study = Study::find(None, &machine).unwrap();
+    let choice =
+        Choice::Optimal { criterion: abbe::identify::Criterion::Variance, count: 10, candidates: 1000 };
+    let plan =
+        Plan { machine: machine.clone(), map: map.clone(), study, choice, model_error: 0.0, seed: None };
+    assert_eq!(plan.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}")).rows, 10);
+    let at = Places::Samples(12);
+    let job = Simulate { machine, map, at, noise: None, outliers: 0.0, random: false, seed: 1 };
+    assert_eq!(job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}")).observations.len(), 12);
 }
 
 /// Returns the mistake that an identification reports.

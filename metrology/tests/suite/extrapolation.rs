@@ -7,6 +7,7 @@ use abbe::identify::Loss;
 use abbe::{Class, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_metrology::Acceptance;
+use abbe_metrology::compensate::Compensate;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::{Identify, Prior, Report, Settings};
 use abbe_metrology::measure::Measure;
@@ -22,10 +23,14 @@ const ERRORS: &str = "\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\nfr
 
 /// Returns a map with exactly known base and target.
 fn map() -> Map {
+    map_of("\"90 mm\", \"-35 mm\", \"60 mm\"")
+}
+
+fn map_of(target: &str) -> Map {
     let joints = joints();
     let text = format!(
         "[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\nplacement = \"exact\"\n\n[joints]\n{joints}\n[point]\n\
-         columns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n[placement]\ntargets = [[\"90 mm\", \"-35 mm\", \"60 mm\"]]\n"
+         columns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n[placement]\ntargets = [[{target}]]\n"
     );
     Map::parse("map.toml", &text, &ur5().spec).unwrap()
 }
@@ -180,6 +185,13 @@ fn stated_uncertainty_agrees_with_the_scatter_outside_the_ranges() {
         "{heard:?}",
         heard = heard.0
     );
+    // What `compensate` says of corrected commands is the same for the origin of the tool.
+    let (machine, data) = (machines[0].clone(), far.clone());
+    let (map, accept) = (map_of("0, 0, 0"), Acceptance::default());
+    let job = Measure { machine: machine.clone(), map: map.clone(), data: data.clone(), accept };
+    let measured = job.run(&mut ()).unwrap().extrapolated.unwrap().standard_deviation.unwrap();
+    let job = Compensate { machine, map, data, poses: false, tolerance: 1e-3 };
+    assert_eq!(job.run(&mut ()).unwrap().deviation, Some(measured.extrapolated));
     let mut quiet = RecordedNotes::default();
     assert!(measure(&near, &mut quiet).is_none() && quiet.0.is_empty(), "{:?}", quiet.0);
 }

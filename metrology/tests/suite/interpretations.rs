@@ -251,6 +251,14 @@ fn delimiters_and_decimal_commas_are_recognized() {
         refused.contains("line 2: the row has ") && refused.contains("quote cells that contain commas"),
         "{refused}"
     );
+    // Without a heading, the line that is missing is printed.
+    let headless = plain.split_once('\n').unwrap().1;
+    let refused = read(headless, &map).unwrap_err();
+    let line = refused.split_once("such as `").unwrap_or_else(|| panic!("{refused}")).1;
+    let data = read(&format!("{}\n{headless}", line.split_once('`').unwrap().0), &map).unwrap();
+    assert_eq!(data.observations.len(), headless.lines().count());
+    let refused = read(&headless.replace(',', " "), &map).unwrap_err();
+    assert!(refused.contains("separated by blanks"), "{refused}");
     // Several missing columns give one error.
     let refused = read(&plain.replace("j", "joint "), &map).unwrap_err();
     assert!(

@@ -14,6 +14,7 @@ mod placements;
 mod plausibility;
 mod profiles;
 mod round_trips;
+mod rows;
 mod selection;
 mod simulated_ur5;
 mod unknown_uncertainty;

@@ -20,17 +20,18 @@ const LISTED: usize = 100;
 pub fn compensation(spec: &Spec, machine: &Description, map: &Map, report: &Report) -> Document {
     let within = length(report.tolerance, machine.length);
     let (done, all) = (report.compensated, report.total_rows());
+    let is_corrected = has_sources(machine) || report.of_poses || done < all;
     Document {
         kind: "Corrected commands",
         machine: machine.title.to_string(),
         title: map.title.clone(),
-        headline: match has_sources(machine) || done < all {
+        headline: match is_corrected {
             true => format!("{done} of {all} commands corrected to within {within}"),
             false => format!("nothing to correct in {all} commands"),
         },
         verdict: Some(Verdict {
             is_met: report.complete(),
-            text: match has_sources(machine) || done < all {
+            text: match is_corrected {
                 true => format!("{done} of {all} commands corrected"),
                 false => "The spec has no errors to correct".to_owned(),
             },

@@ -8,7 +8,8 @@ use abbe_spec::option::IDENTIFY_OUT;
 use abbe_study::number::{counted, digits, error_unit, fixed, percent};
 
 use super::shared::{
-    accepted, data_rows, drift_clauses, extrapolated, first_rows, instrument, residual_verdict,
+    NOTES, accepted, data_rows, drift_clauses, extrapolated, first_notes, first_rows, instrument, notes,
+    residual_verdict,
 };
 use crate::document::{Card, Document, Section, Table};
 use crate::figures::measured;
@@ -48,6 +49,7 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report) -> Document {
             standards(report),
             explained(report),
             all_instruments(report),
+            notes(&report.notes, NOTES),
             Section::page("Instrument").facts(instrument(spec, map)),
             data_rows(std::slice::from_ref(&report.file)),
         ],
@@ -152,6 +154,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         let place = "place on the tool fitted to these rows; errors that it absorbs are not included";
         facts.push(("Target", place.to_owned()));
     }
+    facts.extend(first_notes(&report.notes));
     facts.extend(first_rows(std::slice::from_ref(&report.file)));
     facts
 }

@@ -41,8 +41,12 @@ pub struct Explore<'a> {
 crate::reads! { Explore<'_>: analysis, without study residuals; }
 
 impl Explore<'_> {
-    /// Creates the job for a machine without a study, with measured rows if they have points.
-    pub fn measured(machine: Machine, residuals: Option<Residuals>) -> Explore<'static> {
+    /// Creates the job for a machine without a study, with measured rows if they have points. What
+    /// these found takes the place of the machine.
+    pub fn measured(mut machine: Machine, residuals: Option<Residuals>) -> Explore<'static> {
+        if let Some(found) = residuals.as_ref().and_then(|residuals| residuals.found.as_deref()) {
+            machine = Machine::of_spec(found.clone(), &machine.origin);
+        }
         let study = Study::joint_samples(&machine.spec);
         Explore { analysis: Cow::Owned(Analyze::new(machine, study)), study: None, residuals }
     }

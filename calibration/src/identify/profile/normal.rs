@@ -143,7 +143,7 @@ impl Normal {
             all.rows += 1.0;
         };
         extended.distance_rows(&x, |residual, derivatives| always(&derivatives[..kept.len()], residual));
-        for row in fit.prior.rows.row_iter() {
+        for row in fit.prior.row_iter() {
             let row: Vec<f64> = row.iter().copied().collect();
             always(&row, row.iter().zip(&x).map(|(w, x)| w * x).sum());
         }

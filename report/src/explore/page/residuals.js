@@ -8,7 +8,7 @@ import { decimals, fixed } from "./number.js";
 const [LONG, PICKED] = [0.1, 10];
 
 /** Returns the length of an error; 0 without one. @param {number[] | null} error */
-const lengthOf = (error) => Math.hypot(...(error ?? []));
+export const lengthOf = (error) => Math.hypot(...(error ?? []));
 
 /** Returns the errors to choose from: both with the magnification of the first, then those after with their own. @param {Residuals} residuals */
 export function residualViews({ before, after, rows }) {

@@ -4,6 +4,7 @@ import { button, html, setText, spans } from "./dom.js";
 import { decimals, digits, parseValue, percent, short } from "./number.js";
 import { factorAt } from "./search.js";
 import { errorOf, times } from "./sources.js";
+import { lengthOf } from "./residuals.js";
 import { searchWorst } from "./worker.js";
 /** @import { Panel } from "./panel.js" */
 
@@ -28,7 +29,7 @@ export function createVerdict(panel) {
     const progress = html("progress", { max: 1, value: 0, hidden: true, "aria-label": "Search of the worst case" });
     const start = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
     const varied = [...report.inputs, ...report.parameters].filter(({ range }) => range?.[0] != null && range[1] != null).map(({ name }) => name);
-    const show = button("Show", () => panel.load(panel.cloud?.[panel.measurand].worst ?? 0), { "aria-label": `Show the worst case in the ${over}` });
+    const show = button("Show", () => panel.load(worst()), { "aria-label": `Show the worst case in the ${over}` });
     const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, `Worst in the ${over}`), show, studyText),
         report.variables.length === 0 ? "" : html("div", {}, html("h2", {}, "Worst within the joint limits"), start, progress, boxText,
             varied.length > 0 ? html("label", {}, all, `vary ${varied.join(", ")} too`) : ""));
@@ -42,6 +43,16 @@ export function createVerdict(panel) {
         if (!isWrong) panel.tolerances[panel.measurand] = value;
         panel.refresh();
     });
+    // Of rows, what was measured is worst, not what the sources of a spec predict.
+    const rows = report.residuals?.rows ?? [];
+    const measured = rows.map(({ before, after }) => lengthOf(before ?? after));
+    const worst = () => measured.length > 0 && panel.measurand === "position" ? measured.indexOf(Math.max(...measured))
+        : panel.cloud?.[panel.measurand].worst ?? 0;
+    const rowText = () => {
+        const { before, after } = rows[worst()];
+        const rest = before ? `, ${report.residuals?.after} ${errorText(panel, lengthOf(after), measured[worst()])}` : "";
+        return `${report.residuals?.before ?? report.residuals?.after} ${errorText(panel, measured[worst()])}${rest} at line ${rows[worst()].line}`;
+    };
     let [running, searched] = [/** @type {AbortController | null} */ (null), ""];
     const key = () => String([panel.measurand, panel.tolerances[panel.measurand], panel.state.s, panel.state.u, panel.state.factors]);
     /** Finds the worst case and shows it; a second click stops the search. */
@@ -73,7 +84,7 @@ export function createVerdict(panel) {
         // A study of the compensated machine judges what this page does not compute.
         const isJudged = limit !== null && report.study.judged === "as-built";
         element.classList.toggle("missed", isOpen || (isJudged && !isMet));
-        setText(status, isOpen ? "✗ The loops do not close here" : !isJudged ? "As built, here" : isMet ? "✓ Within tolerance here" : "✗ Above tolerance here");
+        setText(status, isOpen ? "✗ The loops do not close here" : !isJudged ? rows.length > 0 ? "Predicted, here" : "As built, here" : isMet ? "✓ Within tolerance here" : "✗ Above tolerance here");
         setText(total, isOpen ? "" : errorText(panel, radius));
         setText(share, limit === null || isOpen ? "" : `${percent(radius, limit)} of`);
         if (document.activeElement !== field) field.value = limit === null ? "" : `${short(unit.factor * limit)} ${unit.symbol}`;
@@ -95,6 +106,7 @@ export function createVerdict(panel) {
         const study = cloud?.[measurand];
         if (!study) return;
         const scaled = limit === null || !(study.radius > 0) ? "" : ` Tolerance met with all sources ${times(factorAt(study.radius, limit))}.`;
+        if (rows.length > 0 && measurand === "position") return setText(studyText, `${rowText()}. Predicted: at most ${errorText(panel, study.radius)}.`);
         setText(studyText, `${errorText(panel, study.radius)}${shareText(study.radius)} at configuration ${study.worst + 1} of ${study.radii.length}.${scaled}`);
     }
     const settle = () => setText(live, [status, total, share, largest].map(({ textContent }) => textContent).join(" "));

@@ -28,7 +28,7 @@ pub fn identification(spec: &Spec, map: &Map, report: &Report) -> Document {
         title: report.title.clone(),
         headline: headline(report),
         verdict: report.accepted.as_ref().map(|verdict| accepted(verdict, spec.length)),
-        panel: "Residuals at a configuration",
+        panel: "Errors at a configuration",
         sections: [
             vec![answer(spec, report), Section::page("").cards(cards(report))],
             figures(spec, report),

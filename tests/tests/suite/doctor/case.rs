@@ -40,7 +40,12 @@ impl Random {
 
 /// Returns the spec of a shipped robot on a pedestal, with a tool.
 pub(crate) fn text(name: &str) -> String {
-    let text = Machine::find(name).unwrap().text().unwrap();
+    // With an axis along no axis of the frame.
+    let slanted = name.strip_prefix("slanted ");
+    let mut text = Machine::find(slanted.unwrap_or(name)).unwrap().text().unwrap();
+    if slanted.is_some() {
+        text = text.replacen("axis = [0, 0, 1]", "axis = [0.48, -0.6, 0.64]", 3);
+    }
     let at = text.find("[[frame]]").unwrap();
     let foot =
         "[[frame]]\nname = \"foot\"\ntransform = \"Tx(120 mm) Ty(-60 mm) Tz(400 mm) Rz(0.5) Rx(0.2)\"\n\n";
@@ -62,6 +67,8 @@ pub(crate) enum Mistake {
     Lengths,
     Convention,
     Sign,
+    /// Opposite signs of two or three joints.
+    Signs,
     Zero,
     Order,
     Coupled,
@@ -154,8 +161,18 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
         order.swap(i, j);
         changes.push(Change::Order(order.clone()));
     }
-    let reversed = has(Sign).then(|| random.below(count));
-    changes.extend(reversed.map(|joint| Change::Reversed(vec![joint])));
+    let mut reversed = Vec::new();
+    if has(Sign) || has(Signs) {
+        let wanted = if has(Sign) { 1 } else { 2 + random.below(2) };
+        while reversed.len() < wanted {
+            let joint = random.below(count);
+            if !reversed.contains(&joint) {
+                reversed.push(joint);
+            }
+        }
+        reversed.sort_unstable();
+        changes.push(Change::Reversed(reversed.clone()));
+    }
     let coupled = has(Coupled).then(|| {
         loop {
             let joint = 1 + random.below(count - 1);
@@ -256,9 +273,7 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
         if let Some((joint, by)) = coupled {
             columns[joint] -= by * columns[joint - 1];
         }
-        if let Some(joint) = reversed {
-            columns[joint] = -columns[joint];
-        }
+        reversed.iter().for_each(|joint| columns[*joint] = -columns[*joint]);
         let ordered: Vec<f64> = (0..count).map(|i| columns[order[i]]).collect();
         let of_order: Vec<VariableKind> = (0..count).map(|i| kinds[order[i]]).collect();
         for (value, kind) in ordered.iter().zip(of_order) {

@@ -168,6 +168,24 @@ fn pairs_of_mistakes_are_named() {
     assert!(score.among * 100 >= score.cases * 95, "{score:?}");
 }
 
+/// A coupled joint is found where several others turn the other way, too.
+#[test]
+fn couplings_and_several_signs_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut score = Score::default();
+    for robot in ["ur5", "puma560", "panda"] {
+        let mut random = Random(5 + robot.len() as u64);
+        for layout in [Quaternion, Position] {
+            let case = case(robot, &[Coupled, Signs, layout], &mut random);
+            let report = run(&case.spec, &case.data, folder.path());
+            score.add(&case, &report, &format!("{robot}, {layout:?}"));
+            map_holds(&report, folder.path());
+        }
+    }
+    println!("coupled with signs: {score:?}");
+    assert!(score.among == score.cases, "{score:?}");
+}
+
 /// Checks that corrections of a spec are written into it and change nothing else: spec and map
 /// together predict the rows.
 #[test]
@@ -184,6 +202,8 @@ fn the_spec_is_corrected() {
         ("iiwa", &[Tool]),
         ("ur5", &[Ends, Matrix]),
         ("panda", &[Ends, Tool]),
+        ("iiwa", &[Coupled]),
+        ("slanted iiwa", &[Coupled, Zero]),
     ] {
         for seed in 1..=3 {
             let case = case(robot, mistakes, &mut Random(seed));
@@ -191,7 +211,7 @@ fn the_spec_is_corrected() {
             corrected += usize::from(map_holds(&report, folder.path()));
         }
     }
-    assert!(corrected >= 22, "{corrected}");
+    assert!(corrected >= 28, "{corrected}");
     // The lines of the spec are unchanged, except for corrections and the comments above them.
     let case = case("ur5", &[Tool], &mut Random(1));
     let report = run(&case.spec, &case.data, folder.path());
@@ -338,6 +358,28 @@ fn a_row_that_is_not_whole_is_left_out() {
         let report = run(&case.spec, &lines.join("\n"), folder.path());
         assert_eq!(report.rows, 9);
         assert!(is_same(&report.found[0].interpretation, &case.right, 1.0), "{slip}: {:?}", report.found);
+    }
+}
+
+/// Columns are found by their names, in any order, and others than joints and pose are ignored.
+#[test]
+fn columns_are_found_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    for layout in [Position, Quaternion] {
+        let case = case("ur5", &[layout], &mut Random(5));
+        let mut rows = String::new();
+        for (i, line) in case.data.lines().enumerate() {
+            let cells: Vec<&str> = line.split(',').collect();
+            let (joints, pose) = cells.split_at(6);
+            let (joints, others) = match i {
+                0 => ((1..=6).map(|k| format!("J{k} [deg]")).collect(), "temperature,u95"),
+                _ => (joints.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>(), "20.5,0.03"),
+            };
+            rows += &format!("{others},{},{}\n", pose.join(",").replace("x,y,z", "X,Y,Z"), joints.join(","));
+        }
+        let report = run(&case.spec, &rows, folder.path());
+        assert!(is_same(&report.found[0].interpretation, &case.right, 1.0), "{:?}", report.found);
+        map_holds(&report, folder.path());
     }
 }
 

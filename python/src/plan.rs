@@ -1,0 +1,68 @@
+//! Measurement plans.
+#![allow(clippy::too_many_arguments, reason = "keywords of Python")]
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use abbe_metrology::plan::options::{CANDIDATES, COUNT, CRITERIA};
+use abbe_metrology::plan::{Choice, Plan, Sets};
+use abbe_report::views;
+use abbe_study::Study;
+use pyo3::prelude::*;
+
+use crate::job::{length, named, run, within};
+use crate::machine::Machine;
+use crate::report::Report;
+
+#[pymethods]
+impl Machine {
+    /// Plans measurements, and predicts the uncertainty of the tool point after identification.
+    ///
+    /// `map`: path of the map of the measurements, or a shipped name. `sets`: path of a plan file
+    /// with sets of configurations to evaluate; without it, `count` configurations are chosen from
+    /// `candidates` samples. `criterion`: "v" for the smallest mean variance of the tool point over
+    /// the workspace of `study`, "d" for the largest determinant of the information matrix. `seed`:
+    /// of random candidates; without it they are evenly distributed. `model_error`: model error at
+    /// the tool point in addition to the noise of the instrument, in the length unit or as text
+    /// with a unit.
+    ///
+    /// `.report(folder)` writes plan.csv. Fields: `abbe.reports.PlanReport`.
+    #[pyo3(signature = (map, *, sets=None, count=50, criterion="v", candidates=500, model_error=None, study=None, seed=None, progress=None))]
+    fn plan(
+        &self,
+        py: Python<'_>,
+        map: &Bound<'_, PyAny>,
+        sets: Option<PathBuf>,
+        count: usize,
+        criterion: &str,
+        candidates: usize,
+        model_error: Option<&Bound<'_, PyAny>>,
+        study: Option<PathBuf>,
+        seed: Option<u64>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Py<Report>> {
+        let criterion = named("criterion", criterion, CRITERIA)?;
+        let count = within("count", count, COUNT.range)?;
+        let candidates = within("candidates", candidates, CANDIDATES.range)?;
+        let model_error =
+            model_error.map(|value| length("model_error", value, &self.machine.spec)).transpose()?;
+        let map = self.map(map)?;
+        let ((job, report), notes) = run(py, None, progress, |notes| {
+            let machine = self.machine.clone();
+            let choice = match &sets {
+                Some(file) => Choice::Sets(Sets::find(file, &machine.spec)?),
+                None => Choice::Optimal { criterion, count, candidates },
+            };
+            let study = Study::find(study.as_deref(), &machine)?;
+            let job = Plan { machine, map, choice, study, model_error: model_error.unwrap_or(0.0), seed };
+            let report = job.run(notes)?;
+            Ok((job, report))
+        })?;
+        let (report, spec, map) = (Arc::new(report), job.machine.spec, job.map.clone());
+        let document = move |report: &_| views::plan(&spec, &map, report);
+        let found =
+            Report::from_document("plan", &report, notes, document)?.with_rows(report.table(&job.map));
+        let found = found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())]));
+        found.create(py)
+    }
+}

@@ -1,0 +1,49 @@
+//! Runs of an axis of a machine tool, or of body diagonals.
+
+use std::sync::Arc;
+
+use abbe_metrology::positioning::Positioning;
+use abbe_report::views;
+use pyo3::prelude::*;
+
+use crate::job::run;
+use crate::measured::Measured;
+use crate::report::Report;
+
+/// Evaluates runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6.
+///
+/// `data`: a CSV file or a table with columns `position (mm)`, `direction` (`+` or `-`) and
+/// `deviation (um)` or `actual (mm)`; or with one column for each pass, `1+ (um)`, `1- (um)`, …
+/// A column `diagonal` names the body diagonal of each row. `reading_uncertainty`,
+/// `scale_uncertainty`: standard uncertainties of one reading of the instrument, "0.1 um", and of
+/// its scale, "1 um/m".
+///
+/// Positions are in mm or deg, characteristics in um or arcsec. `.table("rows")` has the mean
+/// deviations of an axis at its positions. Fields: `abbe.reports.PositioningReport`.
+///
+/// >>> import abbe
+/// >>> runs = {"position (mm)": [0, 100], "1+ (um)": [1.0, 4.0], "1- (um)": [0.0, 2.0]}
+/// >>> report = abbe.positioning(runs)
+/// >>> report.lines[0].bidirectional.reversal.value
+/// 2.0
+#[pyfunction]
+#[pyo3(signature = (data, *, reading_uncertainty=None, scale_uncertainty=None))]
+pub(crate) fn positioning(
+    py: Python<'_>,
+    data: &Bound<'_, PyAny>,
+    reading_uncertainty: Option<String>,
+    scale_uncertainty: Option<String>,
+) -> PyResult<Py<Report>> {
+    let measured = Measured::all("data", data)?;
+    let (report, notes) = run(py, None, None, |notes| {
+        let (reading, scale) = (reading_uncertainty, scale_uncertainty);
+        Positioning { data: measured.source(), reading, scale }.run(notes)
+    })?;
+    let rows = report.table();
+    let found = Report::from_document("positioning", &Arc::new(report), notes, views::positioning)?;
+    match rows {
+        Some(rows) => found.with_rows(rows),
+        None => found,
+    }
+    .create(py)
+}
