@@ -25,8 +25,9 @@ pub(crate) struct Plan {
     /// Map (TOML) that describes the columns of the measurements, or name of a shipped map
     #[arg(long, value_name = "FILE")]
     map: PathBuf,
-    /// Plan file (TOML) with sets of configurations to evaluate, or name of a shipped plan
-    #[arg(long, value_name = "FILE", conflicts_with = "optimal")]
+    /// Plan file (TOML) with sets of configurations to evaluate, or to choose from with --optimal;
+    /// or name of a shipped plan
+    #[arg(long, value_name = "FILE")]
     sets: Option<PathBuf>,
     /// Number of configurations to choose
     #[arg(long, value_name = "N", value_parser = whole(COUNT.range))]
@@ -36,7 +37,7 @@ pub(crate) struct Plan {
     #[arg(long, value_parser = named(CRITERIA), default_value = CRITERIA.name(CRITERION))]
     criterion: Criterion,
     /// Number of candidate configurations, sampled within the limits
-    #[arg(long, value_name = "N", default_value_t = CANDIDATES.default, value_parser = whole(CANDIDATES.range))]
+    #[arg(long, value_name = "N", conflicts_with = "sets", default_value_t = CANDIDATES.default, value_parser = whole(CANDIDATES.range))]
     candidates: usize,
     /// Seed of random candidates. [default: evenly distributed candidates]
     #[arg(long, value_name = "S", conflicts_with = "sets")]
@@ -61,11 +62,14 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
     arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.map, &machine.spec)?;
-    let choice = match &arguments.sets {
-        Some(file) => Choice::Sets(Sets::find(file, &machine.spec)?),
-        None => Choice::Optimal {
-            criterion: arguments.criterion,
-            count: arguments.optimal.unwrap_or(COUNT.default),
+    let sets = arguments.sets.as_deref().map(|file| Sets::find(file, &machine.spec)).transpose()?;
+    let criterion = arguments.criterion;
+    let choice = match (sets, arguments.optimal) {
+        (Some(sets), None) => Choice::Sets(sets),
+        (Some(sets), Some(count)) => Choice::Among { sets, criterion, count },
+        (None, count) => Choice::Optimal {
+            criterion,
+            count: count.unwrap_or(COUNT.default),
             candidates: arguments.candidates,
         },
     };

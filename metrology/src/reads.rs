@@ -25,7 +25,7 @@ impl Reads for Checks {
 impl Reads for Choice {
     fn files(&self) -> Vec<PathBuf> {
         match self {
-            Self::Sets(sets) => sets.files(),
+            Self::Sets(sets) | Self::Among { sets, .. } => sets.files(),
             Self::Optimal { .. } => Vec::new(),
         }
     }

@@ -519,7 +519,7 @@ class Machine:
         map: _Map,
         *,
         sets: _Path | None = None,
-        count: int = 50,
+        count: int | None = None,
         criterion: options.Criterion = "v",
         candidates: int = 500,
         model_error: _Length | None = None,
@@ -530,12 +530,12 @@ class Machine:
         """Plans measurements, and predicts the uncertainty of the tool point after identification.
 
         `map`: path of the map of the measurements, or a shipped name. `sets`: path of a plan file
-        with sets of configurations to evaluate; without it, `count` configurations are chosen from
-        `candidates` samples. `criterion`: "v" for the smallest mean variance of the tool point over
-        the workspace of `study`, "d" for the largest determinant of the information matrix. `seed`:
-        of random candidates; without it they are evenly distributed. `model_error`: model error at
-        the tool point in addition to the noise of the instrument, in the length unit or as text
-        with a unit.
+        with sets of configurations: `count` of them are chosen, or all are evaluated; without it,
+        `count` (50) configurations are chosen from `candidates` samples. `criterion`: "v" for the
+        smallest mean variance of the tool point over the workspace of `study`, "d" for the largest
+        determinant of the information matrix. `seed`: of random candidates; without it they are
+        evenly distributed. `model_error`: model error at the tool point in addition to the noise of
+        the instrument, in the length unit or as text with a unit.
 
         `.report(folder)` writes plan.csv. Fields: `abbe.reports.PlanReport`.
         """

@@ -19,21 +19,21 @@ impl Machine {
     /// Plans measurements, and predicts the uncertainty of the tool point after identification.
     ///
     /// `map`: path of the map of the measurements, or a shipped name. `sets`: path of a plan file
-    /// with sets of configurations to evaluate; without it, `count` configurations are chosen from
-    /// `candidates` samples. `criterion`: "v" for the smallest mean variance of the tool point over
-    /// the workspace of `study`, "d" for the largest determinant of the information matrix. `seed`:
-    /// of random candidates; without it they are evenly distributed. `model_error`: model error at
-    /// the tool point in addition to the noise of the instrument, in the length unit or as text
-    /// with a unit.
+    /// with sets of configurations: `count` of them are chosen, or all are evaluated; without it,
+    /// `count` (50) configurations are chosen from `candidates` samples. `criterion`: "v" for the
+    /// smallest mean variance of the tool point over the workspace of `study`, "d" for the largest
+    /// determinant of the information matrix. `seed`: of random candidates; without it they are
+    /// evenly distributed. `model_error`: model error at the tool point in addition to the noise of
+    /// the instrument, in the length unit or as text with a unit.
     ///
     /// `.report(folder)` writes plan.csv. Fields: `abbe.reports.PlanReport`.
-    #[pyo3(signature = (map, *, sets=None, count=50, criterion="v", candidates=500, model_error=None, study=None, seed=None, progress=None))]
+    #[pyo3(signature = (map, *, sets=None, count=None, criterion="v", candidates=500, model_error=None, study=None, seed=None, progress=None))]
     fn plan(
         &self,
         py: Python<'_>,
         map: &Bound<'_, PyAny>,
         sets: Option<PathBuf>,
-        count: usize,
+        count: Option<usize>,
         criterion: &str,
         candidates: usize,
         model_error: Option<&Bound<'_, PyAny>>,
@@ -42,16 +42,20 @@ impl Machine {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Report>> {
         let criterion = named("criterion", criterion, CRITERIA)?;
-        let count = within("count", count, COUNT.range)?;
+        let count = count.map(|count| within("count", count, COUNT.range)).transpose()?;
         let candidates = within("candidates", candidates, CANDIDATES.range)?;
         let model_error =
             model_error.map(|value| length("model_error", value, &self.machine.spec)).transpose()?;
         let map = self.map(map)?;
         let ((job, report), notes) = run(py, None, progress, |notes| {
             let machine = self.machine.clone();
-            let choice = match &sets {
-                Some(file) => Choice::Sets(Sets::find(file, &machine.spec)?),
-                None => Choice::Optimal { criterion, count, candidates },
+            let sets = sets.as_deref().map(|file| Sets::find(file, &machine.spec)).transpose()?;
+            let choice = match (sets, count) {
+                (Some(sets), None) => Choice::Sets(sets),
+                (Some(sets), Some(count)) => Choice::Among { sets, criterion, count },
+                (None, count) => {
+                    Choice::Optimal { criterion, count: count.unwrap_or(COUNT.default), candidates }
+                }
             };
             let study = Study::find(study.as_deref(), &machine)?;
             let job = Plan { machine, map, choice, study, model_error: model_error.unwrap_or(0.0), seed };

@@ -64,6 +64,8 @@ abbe_spec::tables! {
             "Known distances between the points of instruments, such as a bar between two nests: they give the machine its scale";
         "accept": Table("[accept]"), "-", "no limits",
             "Limits for the errors of the machine in `measure`, and for those of the identified model in `identify`; without any, there is no verdict";
+        "sight": Table("[sight]"), "-", "unobstructed",
+            "Line of sight of the instrument: `plan` and `simulate` take configurations alone in which it sees the targets";
         "record": Table("[record]"), "-", "nothing stated",
             "Statements about the run for the pages of `measure`, `identify`, `monitor` and `compensate`";
     ]
@@ -92,6 +94,13 @@ abbe_spec::tables! {
         "target_frame": Choice(|| words(&TARGET_FRAMES)), "-", "`\"tool\"`",
             "Frame of the positions of targets in `[[target]]` and `[placement]`: that of the tool, with which `--set` moves them, or `flange`, the last frame before the tool, to which they are fixed wherever the tool point is";
         "setup": COLUMN, "-", "none", "Column of the number of the setup, which decides which instruments were read in a row";
+    ]
+    SIGHT: ["[sight]"], [
+        "from": VECTOR, "length unit", "required", "Position of the instrument in `F_0`, at least about";
+        "looks": VECTOR, "1", "everywhere", "Direction in `F_0` about which the instrument sees";
+        "field": NUMBER, "rad", "`\"90 deg\"`, a half-space", "Largest angle between `looks` and the line to a target";
+        "faces": VECTOR, "1", "everywhere", "Direction in the frame of the tool from which its targets are seen";
+        "within": NUMBER, "rad", "`\"90 deg\"`, a half-space", "Largest angle between `faces` and the line to the instrument";
     ]
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], [
         "column": COLUMN, "-", "required without `value`", "Heading of the column";

@@ -11,6 +11,7 @@ use abbe_spec::{Diagnostics, Spec};
 use super::column::{Channel, Column, Scale};
 use super::configurations::resolution;
 use super::instrument::Instruments;
+use super::sight::Sight;
 use super::station::{Placement, Stations};
 use super::target_frame::TargetFrame;
 use super::turn::Turn;
@@ -89,6 +90,8 @@ pub struct Map {
     pub is_corrected: bool,
     /// Limits for rows that were not used in a fit.
     pub accept: Acceptance,
+    /// Line of sight to the targets that are planned or simulated.
+    pub sight: Option<Sight>,
     /// Date, operator, machine and instrument as stated for the page.
     pub record: RunRecord,
     /// Indicates that the stated stations and fixtures are ignored.
@@ -134,6 +137,7 @@ impl Map {
             placement: Placement::default(),
             is_corrected: false,
             accept: Acceptance::default(),
+            sight: None,
             record: RunRecord::default(),
             is_newly_stationed: false,
             joints: joints.collect(),

@@ -17,7 +17,7 @@ use super::map::{Base, Layout, Map, Target};
 use super::read_channels::{inputs, joints};
 use super::read_distances::distances;
 use super::read_instruments::{instruments, target_position};
-use super::read_places::{found_places, placement, stations};
+use super::read_places::{found_places, placement, sight, stations};
 use super::read_values::{column, columns, deviation, initial_deviation, unit};
 use super::target_frame::TargetFrame;
 use super::turn::{EULER_ORDERS, Turn};
@@ -122,7 +122,7 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
     };
     let stations = stations(root, &head);
     let placement = placement(root, &head, &target_frame, layout.as_ref());
-    let accept = accept(root);
+    let (accept, sight) = (accept(root), sight(root));
     let record = record(root);
     let base = match &layout {
         // The pose of `F_0` is absorbed by the fixtures of the instruments.
@@ -139,6 +139,7 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
         placement: placement?,
         is_corrected: head.get("commands").map_or(Some(false), |item| item.choice(&COMMANDS))?,
         accept: accept?,
+        sight: sight?,
         record: record?,
         is_newly_stationed: false,
         joints: joints?,

@@ -1,4 +1,6 @@
-//! Readers of `[[station]]`, `[placement]` and `[[place]]`.
+//! Readers of `[[station]]`, `[placement]`, `[[place]]` and `[sight]`.
+
+use std::f64::consts::FRAC_PI_2;
 
 use abbe::Pose;
 use abbe::identify::{FixtureGeometry, INTRINSICS};
@@ -11,9 +13,11 @@ use super::keys;
 use super::map::Layout;
 use super::read_values::column;
 use super::rotation;
+use super::sight::{Cone, Sight};
 use super::station::{Placement, StatedPlacement, StatedStation, Stations};
 use super::target_frame::TargetFrame;
 use abbe::analysis::sampling::norm;
+use abbe::analysis::sampling::vectors::dot;
 
 /// Reads the column of stations in `[data]`, and the `[[station]]` tables.
 pub(super) fn stations(root: &Section<'_>, head: &Section<'_>) -> Option<Stations> {
@@ -138,6 +142,25 @@ fn stated_placement(
     }
     covariance(section, 3 * count)?;
     Some(StatedPlacement { targets: Some(targets), ..StatedPlacement::default() })
+}
+
+/// Reads `[sight]`; returns no sight without that table.
+pub(super) fn sight(root: &Section<'_>) -> Option<Option<Sight>> {
+    let Some(item) = root.get("sight") else { return Some(None) };
+    let section = item.table("[sight]", &[&keys::SIGHT])?;
+    let from = section.required("from");
+    let from = from.and_then(|item| item.quantities("three lengths in F_0", Dimension::LENGTH));
+    let cone = |axis: &str, angle: &str| -> Option<Option<Cone>> {
+        let half = section.get(angle).map_or(Some(FRAC_PI_2), |item| item.quantity(Dimension::NONE));
+        let Some(item) = section.get(axis) else { return half.map(|_| None) };
+        let axis = item.quantities("three numbers, a direction", Dimension::NONE)?;
+        if dot(axis, axis) == 0.0 {
+            return item.refuse("a direction has a length", "write a vector such as `[0, 0, 1]`");
+        }
+        Some(Some((axis, half?.cos())))
+    };
+    let (instrument, targets) = (cone("looks", "field"), cone("faces", "within"));
+    Some(Some(Sight { from: from?, instrument: instrument?, targets: targets? }))
 }
 
 /// Reads `[[place]]`: identified geometry and zero of the fixtures of instruments.

@@ -18,7 +18,8 @@ use abbe_study::mistake;
 /// the search ends after `most`.
 ///
 /// Without instruments, or with instruments that can be read anywhere, the configurations stay
-/// unchanged. Those where loops do not close are left out.
+/// unchanged. Those where loops do not close, or where targets are out of
+/// [sight](crate::data::Sight), are left out.
 pub(crate) fn readable_configurations(
     setup: &Setup,
     map: &Map,
@@ -27,6 +28,11 @@ pub(crate) fn readable_configurations(
 ) -> Result<Vec<Observation>, Failure> {
     let Model { manipulator, s, .. } = &setup.ideal;
     configurations.retain(|configuration| sampling::closes(*manipulator, &configuration.q, s));
+    if let Some(sight) = &map.sight {
+        let targets = setup.delivered_points();
+        let is_seen = |q: &[f64]| manipulator.pose(q, s).is_ok_and(|tool| sight.sees(&tool, &targets));
+        configurations.retain(|configuration| is_seen(&configuration.q));
+    }
     let Some(all) = map.instruments() else {
         configurations.truncate(most);
         return Ok(configurations);
@@ -160,7 +166,9 @@ pub(crate) fn nothing_readable(map: &Map) -> Diagnostics {
         true => {
             "check `[[station]]`, `[placement]` and `mount`: the camera must see the whole board, not too obliquely"
         }
-        false => "check that the tool can reach `at` (in F_0) with readings within `range`",
+        false => {
+            "check that the tool can reach `at` (in F_0) with readings within `range`, and targets `[sight]`"
+        }
     };
     let message = "no configuration was found within the joint limits at which these instruments can be read";
     mistake::with_help(map.path(), message, help)

@@ -65,6 +65,15 @@ pub enum Choice {
         /// Number of candidate samples within the joint limits.
         candidates: usize,
     },
+    /// Optimal design among the rows of a plan file.
+    Among {
+        /// Rows to choose from.
+        sets: Sets,
+        /// Optimality criterion.
+        criterion: Criterion,
+        /// Number of configurations.
+        count: usize,
+    },
 }
 
 /// Selected rows by title and sets, and what they determine.
@@ -109,7 +118,7 @@ impl Plan {
         // Sets need no second assessment.
         let (observed, own_design) = match &self.choice {
             Choice::Sets(_) => (identifiable.clone(), Some(design.clone())),
-            Choice::Optimal { .. } => {
+            Choice::Optimal { .. } | Choice::Among { .. } => {
                 let observed = identifiable_from(&model, &rows, &sizes).map_err(fail)?;
                 let own_design = whole(&model, &rows, &observed, &objective, &mut |_, _| {}).map_err(fail)?;
                 (observed, own_design)
@@ -181,42 +190,43 @@ impl Plan {
         notes: &mut dyn Notes,
     ) -> Result<Chosen, Diagnostics> {
         let fail = |failure: Failure| mistake::whole(&self.machine.origin, &failure);
+        let of_sets = |sets: &Sets, notes: &mut dyn Notes| {
+            let (configurations, counts) = sets.rows(manipulator, notes)?;
+            let rows = (1..).zip(configurations).map(|(line, configuration): (u64, Configuration)| {
+                let u = configuration.u.clone();
+                Observation { u: u.into(), ..self.map.planned(line, configuration) }
+            });
+            Ok::<_, Diagnostics>((self.readable(setup, rows.collect())?, counts))
+        };
         match &self.choice {
             Choice::Sets(sets) => {
-                let (configurations, counts) = sets.rows(manipulator, notes)?;
-                let rows = (1..).zip(configurations).map(|(line, configuration): (u64, Configuration)| {
-                    let u = configuration.u.clone();
-                    Observation { u: u.into(), ..self.map.planned(line, configuration) }
-                });
-                let rows = self.map.in_sequence(self.readable(setup, rows.collect())?);
+                let (rows, counts) = of_sets(sets, notes)?;
+                let rows = self.map.in_sequence(rows);
                 let rows = with_nominal_measurements(model, rows.into_iter()).map_err(fail)?;
                 let identifiable = identifiable_from(model, &rows, sizes).map_err(fail)?;
                 let progress = &mut |done, total| notes.progress(done, total);
                 let design = whole(model, &rows, &identifiable, &objective, progress).map_err(fail)?;
                 Ok(Chosen { title: sets.title.clone(), sets: counts, rows, identifiable, design })
             }
-            Choice::Optimal { criterion, count, candidates } => {
+            Choice::Optimal { criterion, count, .. } | Choice::Among { criterion, count, .. } => {
                 if self.map.instruments().is_some_and(Instruments::depend_on_previous_row) {
                     let message = "this instrument reads relative to the row before, so single \
                         configurations cannot be chosen";
                     let help = format!("plan ordered rows with `{SETS}`");
                     return Err(mistake::with_help(self.map.path(), message, help));
                 }
-                let moved: Vec<usize> = self.map.moved().collect();
-                let inputs = self.map.moved_inputs(&self.machine);
-                let samples = match self.seed {
-                    Some(seed) => random_joint_samples(manipulator, &moved, *candidates, seed),
-                    None => joint_samples(manipulator, &moved, *candidates),
+                let (list, from) = match &self.choice {
+                    Choice::Sets(sets) | Choice::Among { sets, .. } => {
+                        (of_sets(sets, notes)?.0, format!("rows of {}", sets.title))
+                    }
+                    Choice::Optimal { candidates, .. } => {
+                        (self.readable(setup, self.samples(manipulator, *candidates)?)?, "samples".to_owned())
+                    }
                 };
-                let samples = samples.and_then(|samples| samples.inputs(manipulator, &inputs));
-                let samples =
-                    samples.map_err(|error| mistake::whole(&self.machine.origin, &error))?.reached();
-                let list = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
-                let list = self.readable(setup, list.collect())?;
                 if *count > list.len() {
-                    let message = format!("cannot choose {count} configurations from {} samples", list.len());
+                    let message = format!("cannot choose {count} configurations from {} {from}", list.len());
                     let help = format!(
-                        "each sample is chosen at most once: increase `{CANDIDATES}`, or \
+                        "each one is chosen at most once: increase `{CANDIDATES}` or the sets, or \
                         choose fewer configurations"
                     );
                     return Err(mistake::with_help(&self.machine.origin, message, help));
@@ -233,10 +243,23 @@ impl Plan {
                     Criterion::Variance => "V-optimal",
                     Criterion::Determinant => "D-optimal",
                 };
-                let title = format!("{name}: {count} of {} samples", list.len());
+                let title = format!("{name}: {count} of {} {from}", list.len());
                 Ok(Chosen { title, sets: Vec::new(), rows, identifiable, design })
             }
         }
+    }
+
+    /// Returns candidate samples within the limits of the joints and inputs that move.
+    fn samples(&self, manipulator: &Interpreter, candidates: usize) -> Result<Vec<Observation>, Diagnostics> {
+        let moved: Vec<usize> = self.map.moved().collect();
+        let inputs = self.map.moved_inputs(&self.machine);
+        let samples = match self.seed {
+            Some(seed) => random_joint_samples(manipulator, &moved, candidates, seed),
+            None => joint_samples(manipulator, &moved, candidates),
+        };
+        let samples = samples.and_then(|samples| samples.inputs(manipulator, &inputs));
+        let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, &error))?.reached();
+        Ok((1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample)).collect())
     }
 
     /// Returns the range of each input over these rows.

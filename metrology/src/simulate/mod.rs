@@ -189,7 +189,11 @@ impl Simulate {
             Places::Rows(data) => Cow::Borrowed(data),
             Places::Samples(count) => {
                 let has_loops = interpreter.description().has_loops();
-                if map.instruments().is_none() && !map.follows_from_rows() && !has_loops {
+                if map.instruments().is_none()
+                    && map.sight.is_none()
+                    && !map.follows_from_rows()
+                    && !has_loops
+                {
                     let (samples, stations) = (self.samples(interpreter, *count)?, map.station_names().len());
                     return Ok(Planned::Sampled { samples, stations });
                 }
@@ -249,6 +253,7 @@ impl Simulate {
     ) -> Result<Data, Diagnostics> {
         let tries = match self.map.instruments() {
             Some(all) if all.camera.is_some() => TRIES_OF_VIEW * count,
+            None if self.map.sight.is_some() => TRIES_OF_VIEW * count,
             None if manipulator.description().is_chain() => count,
             _ => TRIES * count,
         };

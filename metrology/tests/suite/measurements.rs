@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use abbe::Manipulator;
+use abbe::analysis::sampling;
 use abbe::identify::{Criterion, Loss, Measurement, Observation};
 use abbe_interpreter::Interpreter;
 use abbe_metrology::compensate::Compensate;
 use abbe_metrology::data::{Cells, Columns, Data, Map, Source};
 use abbe_metrology::identify::{Family, Identify, Prior, Settings};
 use abbe_metrology::measure::Measure;
-use abbe_metrology::plan::{Choice, Plan};
+use abbe_metrology::plan::{Choice, Plan, Sets};
 use abbe_metrology::simulate::{Places, Simulate};
 use abbe_metrology::{Acceptance, Decision};
 use abbe_spec::Spec;
@@ -386,6 +387,48 @@ fn a_plan_predicts_rank_and_uncertainty() {
     // The tool point lies on the last axis, so that two of the 27 combinations are undetermined.
     assert_eq!((report.rows, report.rank, report.observations.len()), (30, 25, 30));
     assert!(report.predicted.mean > 0.0 && report.predicted.mean < 0.05, "{:?}", report.predicted);
+}
+
+/// Configurations are chosen from those of a plan file, with the levels of its inputs, and from
+/// those alone in which the instrument sees the target.
+#[test]
+fn a_plan_chooses_from_candidates_within_sight() {
+    let machine = Machine::find("pps").unwrap();
+    let study = Study::find(None, &machine).unwrap();
+    let sets = Sets::find("pps".as_ref(), &machine.spec).unwrap();
+    let of_rows = Map::find("pps".as_ref(), &machine.spec).unwrap();
+    let choice = Choice::Among { sets, criterion: Criterion::Variance, count: 40 };
+    let job = Plan { machine, map: of_rows, choice, study, model_error: 0.0, seed: None };
+    let report = job.run(&mut ()).unwrap();
+    assert!(
+        report.rows == 40 && report.title.starts_with("V-optimal: 40 of 450 rows of "),
+        "{}",
+        report.title
+    );
+    let patient = job.machine.spec.inputs.iter().position(|input| input.name == "patient").unwrap();
+    let levels: Vec<f64> = report.observations.iter().map(|row| row.u[patient]).collect();
+    assert!(levels.contains(&0.0) && levels.iter().any(|level| *level > 60.0));
+    assert!(levels.iter().all(|level| *level == 0.0 || (*level - 69.853).abs() < 0.01), "{levels:?}");
+
+    let machine = ur5();
+    let from = [2000.0, 300.0, 700.0];
+    let sight = "[sight]\nfrom = [2000, 300, 700]\nlooks = [-1, 0, 0]\nfield = \"25 deg\"\n\
+                 faces = [0, 0, 1]\nwithin = \"30 deg\"\n";
+    let map = map(&format!("{POINT}\n{sight}"));
+    let at = Places::Samples(60);
+    let job = Simulate { machine, map, at, noise: None, outliers: 0.0, random: false, seed: 1 };
+    let rows = job.run(&mut ()).unwrap().observations;
+    assert_eq!(rows.len(), 60);
+    let robot = Interpreter::new(ur5().spec);
+    for row in rows {
+        let tool = robot.pose(&row.q, &sampling::nominal_parameters(robot.description())).unwrap();
+        let line: [f64; 3] = std::array::from_fn(|i| from[i] - tool.0[3][i]);
+        let angle = |axis: [f64; 3]| {
+            let along: f64 = axis.iter().zip(line).map(|(a, b)| a * b).sum();
+            (along / sampling::norm(line)).acos().to_degrees()
+        };
+        assert!(angle([1.0, 0.0, 0.0]) < 25.0 && angle(tool.0[2]) < 30.0, "{:?}", row.q);
+    }
 }
 
 /// A file whose columns have the names of the spec's joints needs no map.
