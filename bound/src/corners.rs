@@ -253,8 +253,8 @@ impl<const N: usize> Rounded<'_, N> {
                 values.chunks_exact(samples * stride).zip(self.other.chunks_exact_mut(count * stride));
             for (values, points) in blocks {
                 for i in 0..stride {
-                    let own = std::array::from_fn(|sample| values[sample.min(samples - 1) * stride + i]);
-                    for (control, point) in controls.points::<f64>(&own).into_iter().take(count).enumerate() {
+                    let own = std::array::from_fn(|sample| [values[sample.min(samples - 1) * stride + i]]);
+                    for (control, [point]) in controls.points(&own).into_iter().take(count).enumerate() {
                         points[control * stride + i] = point;
                     }
                 }

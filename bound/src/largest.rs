@@ -11,7 +11,7 @@ use crate::convex::Convex;
 use crate::corners::Corners;
 use crate::period;
 use crate::problem::Problem;
-use crate::search::{Bound, Effort, MOST_MOVING, Moving, Search, Watch};
+use crate::search::{Bound, Effort, MOST_MOVING, Moving, Search, Watch, of_all, still};
 use crate::tape::Tape;
 use crate::unknowns::Unknowns;
 
@@ -32,7 +32,7 @@ pub fn largest(
 ) -> Bound {
     let node = magnitude.node;
     if graph.value(node) == Some(0.0) {
-        let at = moving.iter().map(|name| name.home.clamp(name.range[0], name.range[1])).collect();
+        let at = moving.iter().map(Moving::still).collect();
         return Bound { found: 0.0, certified: 0.0, at, boxes: 0, complete: true, unbounded: None };
     }
     let depends = Implicit::symbols(graph, &[node], implicit);
@@ -46,10 +46,7 @@ pub fn largest(
     let direction = DIRECTION.map(|(symbol, range)| Moving { symbol, range, home: 0.0, start: 0.0 });
     let active: Vec<Moving> = moving.iter().copied().chain(direction).filter(is_active).collect();
     let mut symbols: Vec<Symbol> = active.iter().map(|name| name.symbol).collect();
-    let still = |symbol: Symbol| {
-        let name = moving.iter().find(|name| name.symbol == symbol);
-        name.map_or_else(|| fixed(symbol), |name| name.home.clamp(name.range[0], name.range[1]))
-    };
+    let still = |symbol: Symbol| still(moving, fixed, symbol);
     let mut unknowns = None;
     let mut all = vec![node];
     if has_unknowns {
@@ -94,14 +91,7 @@ pub fn largest(
         9..=16 => search.run::<16>(watch),
         _ => search.run::<MOST_MOVING>(watch),
     };
-    let whole = |at: &[f64]| -> Vec<f64> {
-        let mut found = at.iter();
-        let values = moving.iter().map(|name| {
-            let own = if is_active(name) { found.next().copied() } else { None };
-            own.unwrap_or_else(|| still(name.symbol))
-        });
-        values.collect()
-    };
+    let whole = |at: &[f64]| of_all(moving, is_active, at);
     Bound { at: whole(&bound.at), unbounded: bound.unbounded.as_deref().map(whole), ..bound }
 }
 

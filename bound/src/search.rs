@@ -230,3 +230,22 @@ pub struct Moving {
     /// Value at which the search starts.
     pub start: f64,
 }
+
+impl Moving {
+    /// Returns the value of the name if the node does not depend on it, within its range.
+    pub(crate) fn still(&self) -> f64 {
+        self.home.clamp(self.range[0], self.range[1])
+    }
+}
+
+/// Returns the value of a symbol that does not move; others than names are `fixed`.
+pub(crate) fn still(moving: &[Moving], fixed: &dyn Fn(Symbol) -> f64, symbol: Symbol) -> f64 {
+    moving.iter().find(|name| name.symbol == symbol).map_or_else(|| fixed(symbol), Moving::still)
+}
+
+/// Returns the value of each name; `at` has those of the active ones.
+pub(crate) fn of_all(moving: &[Moving], is_active: impl Fn(&Moving) -> bool, at: &[f64]) -> Vec<f64> {
+    let mut found = at.iter().copied();
+    let value = |name: &Moving| is_active(name).then(|| found.next()).flatten().unwrap_or(name.still());
+    moving.iter().map(value).collect()
+}

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::affine::{Affine, above};
 use crate::period;
-use crate::search::{Effort, MOST_MOVING, Moving, Progress, Queue, Watch};
+use crate::search::{Effort, MOST_MOVING, Moving, Progress, Queue, Watch, of_all, still};
 use crate::search_box::centres;
 use crate::tape::Tape;
 
@@ -70,13 +70,10 @@ pub fn singular_value(
 ) -> Singular {
     let entries = rows.concat();
     let depends = graph.symbols(&entries);
-    let is_active = |name: &&Moving| depends.contains(&name.symbol) && name.range[0] < name.range[1];
-    let active: Vec<Moving> = moving.iter().filter(is_active).copied().collect();
+    let is_active = |name: &Moving| depends.contains(&name.symbol) && name.range[0] < name.range[1];
+    let active: Vec<Moving> = moving.iter().copied().filter(is_active).collect();
     let symbols: Vec<Symbol> = active.iter().map(|name| name.symbol).collect();
-    let still = |symbol: Symbol| {
-        let name = moving.iter().find(|name| name.symbol == symbol);
-        name.map_or_else(|| fixed(symbol), |name| name.home.clamp(name.range[0], name.range[1]))
-    };
+    let still = |symbol: Symbol| still(moving, fixed, symbol);
     let search = Search {
         extreme,
         matrix: Tape::new(graph, &entries, &symbols, still),
@@ -97,12 +94,7 @@ pub fn singular_value(
         9..=16 => search.run::<16>(watch),
         _ => search.run::<MOST_MOVING>(watch),
     };
-    let mut found = singular.at.iter();
-    let at = moving.iter().map(|name| {
-        let own = if is_active(&name) { found.next().copied() } else { None };
-        own.unwrap_or_else(|| still(name.symbol))
-    });
-    Singular { at: at.collect(), ..singular }
+    Singular { at: of_all(moving, is_active, &singular.at), ..singular }
 }
 
 struct Search {

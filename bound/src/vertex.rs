@@ -31,44 +31,6 @@ pub(crate) fn result<T: Number>(operation: &Operation, before: &[T], names: &[[T
     }
 }
 
-/// A rounded number.
-impl Number for f64 {
-    #[inline(always)]
-    fn known(number: &Affine<0>) -> Self {
-        number.centre
-    }
-
-    #[inline(always)]
-    fn neg(self) -> Self {
-        -self
-    }
-
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self + other
-    }
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self * other
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.max(0.0).sqrt()
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f64::abs(self)
-    }
-
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        self.max(other)
-    }
-}
-
 /// Rounded numbers at several points.
 pub(crate) type Lanes<const N: usize> = [f64; N];
 

@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Allocate) -> Result<Outcome, Failure> {
     arguments.common.running.start()?;
     let machine = arguments.subject.as_written()?;
     let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
-    let changes = arguments.subject.changes(&machine.spec)?;
+    let changes = arguments.subject.changes.read(&machine.spec)?;
     let mut job = allocate::Allocate::new(machine.clone(), study);
     job.change(&changes);
     job.loosen = arguments.loosen;

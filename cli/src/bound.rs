@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &Bound) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.as_written()?;
     let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
-    let changes = arguments.subject.changes(&machine.spec)?;
+    let changes = arguments.subject.changes.read(&machine.spec)?;
     let mut job = bound::Bound::new(machine, study);
     job.change(&changes);
     job.effort = Effort { gap: arguments.gap.share(), boxes: arguments.boxes, ..job.effort };

@@ -89,9 +89,7 @@ fn pages(
     }
     outputs.folder(folder)?;
     let files = abbe_report::gallery(&run()?);
-    let complete = files.iter().map(|file| outputs.file(&folder.join(&file.name))?.fill(&file.text));
-    let complete = complete.collect::<Result<Vec<_>, _>>()?;
-    outputs.finish(complete)?;
+    outputs.write(files.iter().map(|file| (folder.join(&file.name), &file.text)))?;
     let index = folder.join(abbe_report::INDEX);
     note(&format!("wrote {} pages; open {} in a browser", names.len(), index.display()));
     Ok(Outcome::passed(String::new()))

@@ -11,7 +11,7 @@ use clap::{Args, ValueHint};
 use crate::arguments::{Showing, Subject, Writing, whole};
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, Outputs, Pending};
+use crate::output::{Outcome, Outputs};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -104,10 +104,8 @@ pub(crate) fn run(arguments: &Export) -> Result<Outcome, Failure> {
             several.iter().map(|file| folder.join(&file.name)).collect()
         }
     };
-    let files = paths.iter().zip(&report.files);
-    let pending: Result<Vec<Pending>, Failure> =
-        files.map(|(path, file)| outputs.file(path)?.fill(&file.text)).collect();
-    let printed = outputs.finish(pending?)?;
+    let texts = report.files.iter().map(|file| &file.text);
+    let printed = outputs.write(paths.iter().cloned().zip(texts))?;
     let next = "--full lists all differences and what the format cannot store";
     let mut text = showing.answer(&report, views::exported(&report), next)?;
     if out.is_some() && !showing.json {

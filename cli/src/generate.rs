@@ -4,13 +4,13 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use abbe_study::Machine;
-use abbe_study::generate::{self, Fmi, Language, Real, SourceFile, archive};
+use abbe_study::generate::{self, Fmi, Language, Real, archive};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Writing, named};
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, Outputs, Pending, note};
+use crate::output::{Outcome, Outputs, note};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -78,11 +78,9 @@ pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
             files.iter().map(|file| folder.join(&file.name)).collect()
         }
     };
-    let both = || paths.iter().zip(&files);
-    let pending: Result<Vec<Pending>, Failure> =
-        both().map(|(path, file)| outputs.file(path)?.fill(&file.text)).collect();
-    outputs.finish(pending?)?;
-    for (path, SourceFile { text, .. }) in both() {
+    let texts = files.iter().map(|file| &file.text);
+    outputs.write(paths.iter().cloned().zip(texts.clone()))?;
+    for (path, text) in paths.iter().zip(texts) {
         note(&format!("wrote {}: {} lines, {} bytes", path.display(), text.lines().count(), text.len()));
     }
     Ok(Outcome::passed(String::new()))
@@ -108,15 +106,14 @@ fn language(arguments: &Generate) -> Result<Language, Failure> {
 }
 
 /// Writes a functional mock-up unit, an archive of all files.
-fn unit(arguments: &Generate, job: &generate::Generate, mut outputs: Outputs) -> Result<Outcome, Failure> {
+fn unit(arguments: &Generate, job: &generate::Generate, outputs: Outputs) -> Result<Outcome, Failure> {
     let Some(path) = &arguments.out else {
         return Err(Failure::new("--lang", "a functional mock-up unit is an archive and cannot be printed")
             .help(format!("give a file: `--out {}.fmu`", job.machine.spec.name)));
     };
     let files = job.run(&mut Console::default())?;
     let archive = archive(&files);
-    let pending = outputs.file(path)?.fill(&archive)?;
-    outputs.finish(vec![pending])?;
+    outputs.write([(path.clone(), &archive)])?;
     note(&format!("wrote {}: {} files, {} bytes", path.display(), files.len(), archive.len()));
     Ok(Outcome::passed(String::new()))
 }

@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let detail = arguments.showing.detail();
     let mut machine = arguments.subject.as_written()?;
-    let changes = arguments.subject.changes(&machine.spec)?;
+    let changes = arguments.subject.changes.read(&machine.spec)?;
     if arguments.out.is_some() && !changes.is_empty() {
         return Err(Failure::new(
             "--out",
@@ -186,19 +186,17 @@ impl IdentifiedFiles {
         if count == 0 {
             return format!("{}\n{map_note}\n", wrapped(&format!("Written to {file}: the nominal spec."), 0));
         }
-        let (what, lines) = match detail {
-            Detail::Full => {
-                ("these lines".to_owned(), lines.iter().map(|line| format!("{line}\n")).collect())
-            }
-            Detail::Answer => (format!("{count} lines"), String::new()),
-        };
-        let text = format!(
-            "Written to {file}: the nominal spec, {what}, and the covariance of the \
+        let text = |what: &str| {
+            format!(
+                "Written to {file}: the nominal spec, {what}, and the covariance of the \
                 identified errors"
-        );
+            )
+        };
         match detail {
-            Detail::Full => format!("{text}\n{lines}{map_note}\n"),
-            Detail::Answer => format!("{}\n{map_note}\n", wrapped(&format!("{text}."), 0)),
+            Detail::Full => format!("{}\n{}\n{map_note}\n", text("these lines"), lines.join("\n")),
+            Detail::Answer => {
+                format!("{}\n{map_note}\n", wrapped(&format!("{}.", text(&format!("{count} lines"))), 0))
+            }
         }
     }
 }

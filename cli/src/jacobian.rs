@@ -30,10 +30,8 @@ pub(crate) struct Jacobian {
 
 pub(crate) fn run(arguments: &Jacobian) -> Result<Outcome, Failure> {
     let machine = arguments.subject.machine()?;
-    let q = match &arguments.q {
-        Some(text) => Some(jacobian::read_joint_variables(text, &machine.spec)?),
-        None => None,
-    };
+    let q = arguments.q.as_ref().map(|text| jacobian::read_joint_variables(text, &machine.spec));
+    let q = q.transpose()?;
     let report = jacobian::Jacobian { machine, q }.run(&mut Console::default())?;
     Ok(Outcome::passed(if arguments.json { json(&report)? } else { text::jacobian(&report) }))
 }

@@ -26,9 +26,7 @@ pub(crate) fn run(arguments: &Man, command: Command) -> Result<Outcome, Failure>
     let pages = pages(command).map_err(|error| cannot_write(folder, &error))?;
     let mut outputs = Outputs::new(&(), arguments.writing.force);
     outputs.folder(folder)?;
-    let files = pages.iter().map(|(name, text)| outputs.file(&folder.join(name))?.fill(text));
-    let files = files.collect::<Result<Vec<_>, _>>()?;
-    outputs.finish(files)?;
+    outputs.write(pages.iter().map(|(name, text)| (folder.join(name), text)))?;
     note(&format!("wrote {}: {} pages", folder.display(), pages.len()));
     Ok(Outcome::passed(String::new()))
 }

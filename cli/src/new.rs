@@ -32,9 +32,7 @@ pub(crate) fn run(arguments: &New) -> Result<Outcome, Failure> {
     let New { name, template, out, writing } = arguments;
     let spec = template.spec(name)?;
     let path = out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
-    let mut outputs = Outputs::new(&(), writing.force);
-    let pending = outputs.file(&path)?.fill(&spec)?;
-    outputs.finish(vec![pending])?;
+    Outputs::new(&(), writing.force).write([(path.clone(), &spec)])?;
     let text = match is_stdout(&path) {
         true => String::new(),
         false => format!(

@@ -63,16 +63,7 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.map, &machine.spec)?;
     let sets = arguments.sets.as_deref().map(|file| Sets::find(file, &machine.spec)).transpose()?;
-    let criterion = arguments.criterion;
-    let choice = match (sets, arguments.optimal) {
-        (Some(sets), None) => Choice::Sets(sets),
-        (Some(sets), Some(count)) => Choice::Among { sets, criterion, count },
-        (None, count) => Choice::Optimal {
-            criterion,
-            count: count.unwrap_or(COUNT.default),
-            candidates: arguments.candidates,
-        },
-    };
+    let choice = Choice::new(sets, arguments.optimal, arguments.criterion, arguments.candidates);
     let model_error = length("--model-error", &arguments.model_error, &machine.spec)?;
     let study = study(arguments.study.as_deref(), &[], &machine)?;
     let job = plan::Plan { machine, map, choice, study, model_error, seed: arguments.seed };

@@ -205,11 +205,9 @@ impl Manipulator for Interpreter {
             checks::length(array.quantity, array.rows(&self.description), found)?;
         }
         let values = self.unchecked(function, arguments)?;
-        let mut rest = values.as_slice();
+        let mut rest = values.iter();
         for result in results.iter_mut().take(arrays.len()) {
-            let (these, others) = rest.split_at(result.len());
-            result.copy_from_slice(these);
-            rest = others;
+            result.iter_mut().zip(rest.by_ref()).for_each(|(result, value)| *result = *value);
         }
         self.check(function, &values).map_err(|error| self.named(error, function, arguments))
     }

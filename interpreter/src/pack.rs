@@ -196,8 +196,7 @@ impl<'r> Packer<'r> {
         let slots = &arrays.places[array];
         let first = match row {
             Row::All | Row::First => 0,
-            Row::AllButFirst => slots.len() - count,
-            Row::Last => slots.len() - count,
+            Row::AllButFirst | Row::Last => slots.len() - count,
             Row::Each { stride, offset } => (stride * i + offset) * count,
             Row::Listed { table, column } => self.routines.tables[table].rows[i][column] * count,
         };

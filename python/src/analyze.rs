@@ -47,7 +47,7 @@ impl Machine {
         });
         let mut question = AnalysisRequest {
             spec_text,
-            changes: self.each_change(),
+            changes: self.changes.clone(),
             ..AnalysisRequest::new(&self.unchanged, study)?
         };
         if let (Some(text), None) = (study_text, study) {

@@ -140,7 +140,7 @@ impl Batch<'_> {
     /// evaluation.
     fn refused(&self, first: usize, size: usize) -> RejectedConfiguration {
         let alone = |index: usize| {
-            let arguments = (0..self.arguments.len()).map(|argument| self.values_of(argument, index));
+            let arguments = (0..self.arguments.len()).map(|argument| self.values(argument, index, 1));
             self.interpreter
                 .run(self.function, &arguments.collect::<Vec<_>>())
                 .err()
@@ -150,9 +150,5 @@ impl Batch<'_> {
             .find_map(alone)
             .unwrap_or((first, Error::NotFinite { quantity: Quantity::Results, index: 0 }));
         RejectedConfiguration { index: Some(index), error }
-    }
-
-    fn values_of(&self, argument: usize, index: usize) -> &[f64] {
-        self.values(argument, index, 1)
     }
 }

@@ -1,5 +1,6 @@
 //! Inverse kinematics, and commands that compensate the errors of the machine.
 
+use abbe::analysis::sampling::vectors::{cross, dot};
 use abbe::analysis::{InverseKinematics, Target, inverse};
 use abbe::{Function, Pose};
 use abbe_metrology::compensate;
@@ -195,15 +196,13 @@ const ORTHOGONAL: f64 = 1e-6;
 fn pose(values: &[f64]) -> PyResult<Pose> {
     let pose = Pose(std::array::from_fn(|j| std::array::from_fn(|i| values[4 * i + j])));
     let [x, y, z, _] = pose.0;
-    let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let products = [dot(x, x) - 1.0, dot(y, y) - 1.0, dot(z, z) - 1.0, dot(x, y), dot(y, z), dot(z, x)];
-    let cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
     if values[12..] != [0.0, 0.0, 0.0, 1.0] {
         return Err(PyValueError::new_err(
             "the last row of `target` is not 0 0 0 1: a pose has the tool point in its last column; is it transposed?",
         ));
     }
-    if products.iter().any(|product| product.abs() > ORTHOGONAL) || dot(cross, z) < 0.0 {
+    if products.iter().any(|product| product.abs() > ORTHOGONAL) || dot(cross(x, y), z) < 0.0 {
         return Err(PyValueError::new_err(
             "`target` has no rotation matrix: its first three columns must be perpendicular unit vectors, right-handed",
         ));

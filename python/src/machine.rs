@@ -6,7 +6,7 @@ use abbe::{Function, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::{Diagnostics, Spec};
-use abbe_study::analyze::parts;
+use abbe_study::analyze::parts::Change;
 use abbe_study::{Changes, changed_text};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -33,15 +33,12 @@ pub(crate) struct Machine {
     /// Text of the spec, unless it is a shipped one.
     pub(crate) text: Option<String>,
     /// Changes in the order of their application.
-    changes: Vec<Change>,
+    pub(crate) changes: Vec<Change>,
     layouts: [OnceLock<Layout>; Function::COUNT],
 }
 
-/// Change: its kind, and its subject.
-type Change = (String, String);
-
 /// Arguments of [`restore`].
-type Restored<'a> = (&'a str, Option<&'a str>, Vec<Change>);
+type Restored<'a> = (&'a str, Option<&'a str>, String);
 
 impl Machine {
     /// Creates a machine with changes. `same` is an interpreter of a spec that differs in the
@@ -54,8 +51,8 @@ impl Machine {
         same: Option<&Interpreter>,
     ) -> PyResult<Self> {
         let mut machine = unchanged.clone();
-        for (kind, change) in &changes {
-            let changes = change_of(kind, change).read(&machine.spec);
+        for change in &changes {
+            let changes = change.read(&machine.spec);
             machine.change(&changes.map_err(|mistakes| spec_error(py, &mistakes))?);
         }
         let interpreter = match same {
@@ -77,14 +74,14 @@ impl Machine {
 
     /// Returns a machine with further changes.
     fn changed(&self, py: Python<'_>, more: Vec<Change>) -> PyResult<Self> {
-        let is_value = |(kind, _): &Change| kind == "number" || kind == "set";
-        let subject = |(_, change): &Change| change.split('=').next().map(str::to_owned);
-        // A new value replaces the last one.
-        let is_replaced = |old: &&Change| {
-            is_value(old) && more.iter().any(|new| is_value(new) && subject(new) == subject(old))
+        let named = |change: &Change| match change {
+            Change::Number(value) | Change::Set(value) => value.split('=').next().map(str::to_owned),
+            _ => None,
         };
-        let mut changes: Vec<Change> = self.changes.iter().filter(|old| !is_replaced(old)).cloned().collect();
-        let same = more.iter().all(is_value).then_some(&self.interpreter);
+        // A new value replaces the last one.
+        let is_kept = |old: &&Change| named(old).is_none() || more.iter().all(|new| named(new) != named(old));
+        let mut changes: Vec<Change> = self.changes.iter().filter(is_kept).cloned().collect();
+        let same = more.iter().all(|new| named(new).is_some()).then_some(&self.interpreter);
         changes.extend(more);
         guarded(|| Self::new(py, self.unchanged.clone(), self.text.clone(), changes, same))
     }
@@ -92,12 +89,7 @@ impl Machine {
     /// Reads the changes, one by one, for a job.
     pub(crate) fn changes(&self) -> Result<Vec<Changes>, Diagnostics> {
         let spec = &self.unchanged.spec;
-        self.changes.iter().map(|(kind, change)| change_of(kind, change).read(spec)).collect()
-    }
-
-    /// Returns the changes, one by one, for a part of an analysis.
-    pub(crate) fn each_change(&self) -> Vec<parts::Change> {
-        self.changes.iter().map(|(kind, change)| change_of(kind, change)).collect()
+        self.changes.iter().map(|change| change.read(spec)).collect()
     }
 
     /// Returns the text of the spec without changes.
@@ -107,18 +99,6 @@ impl Machine {
 
     pub(crate) fn layout(&self, function: Function) -> &Layout {
         self.layouts[function as usize].get_or_init(|| Layout::new(function, self.interpreter.description()))
-    }
-}
-
-/// Converts a change: `number` is a value in coherent units, `set` a value as text.
-pub(crate) fn change_of(kind: &str, change: &str) -> parts::Change {
-    let change = change.to_owned();
-    match kind {
-        "number" => parts::Change::Number(change),
-        "set" => parts::Change::Set(change),
-        "enable" => parts::Change::Enable(change),
-        "scale" => parts::Change::Scale(change),
-        _ => parts::Change::Disable(change),
     }
 }
 
@@ -156,7 +136,7 @@ pub(crate) fn load(
             let (machine, text) = py.detach(read).map_err(|mistakes| spec_error(py, &mistakes))?;
             Machine::new(py, machine, text, Vec::new(), None)
         }
-        (None, Some(text)) => restore(py, "text", Some(text), Vec::new()),
+        (None, Some(text)) => restore(py, "text", Some(text), "[]"),
         _ => Err(PyTypeError::new_err("give a spec file or a shipped name, or else text=…")),
     })
 }
@@ -168,9 +148,11 @@ pub(crate) fn restore(
     py: Python<'_>,
     origin: &str,
     text: Option<String>,
-    changes: Vec<Change>,
+    changes: &str,
 ) -> PyResult<Machine> {
     guarded(|| {
+        let changes = serde_json::from_str(changes);
+        let changes = changes.map_err(|error| PyValueError::new_err(error.to_string()))?;
         let machine = py.detach(|| find_machine(origin, text.as_deref()));
         Machine::new(py, machine.map_err(|mistakes| spec_error(py, &mistakes))?, text, changes, None)
     })
@@ -309,16 +291,15 @@ impl Machine {
     fn with_parameters(&self, py: Python<'_>, values: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let mut changes = Vec::new();
         for (name, value) in values.into_iter().flatten() {
-            let (kind, value) = match value.cast::<PyString>() {
-                Ok(text) => ("set", text.to_str()?.to_owned()),
+            changes.push(match value.cast::<PyString>() {
+                Ok(text) => Change::Set(format!("{name}={}", text.to_str()?)),
                 Err(_) if value.is_instance_of::<PyBool>() => {
                     return Err(PyTypeError::new_err(format!(
                         "`{name}` must be a number, or text with a unit"
                     )));
                 }
-                Err(_) => ("number", format!("{:?}", value.extract::<f64>()?)),
-            };
-            changes.push((kind.to_owned(), format!("{name}={value}")));
+                Err(_) => Change::Number(format!("{name}={:?}", value.extract::<f64>()?)),
+            });
         }
         self.changed(py, changes)
     }
@@ -326,19 +307,19 @@ impl Machine {
     /// Returns a machine with these error sources enabled.
     #[pyo3(signature = (*sources))]
     fn enable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
-        self.changed(py, sources.into_iter().map(|source| ("enable".to_owned(), source)).collect())
+        self.changed(py, sources.into_iter().map(Change::Enable).collect())
     }
 
     /// Returns a machine with these error sources disabled.
     #[pyo3(signature = (*sources))]
     fn disable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
-        self.changed(py, sources.into_iter().map(|source| ("disable".to_owned(), source)).collect())
+        self.changed(py, sources.into_iter().map(Change::Disable).collect())
     }
 
     /// Returns a machine with the errors of this source multiplied by `factor`, which is not
     /// negative.
     fn scale(&self, py: Python<'_>, source: &str, factor: f64) -> PyResult<Self> {
-        self.changed(py, vec![("scale".to_owned(), format!("{source}={factor:?}"))])
+        self.changed(py, vec![Change::Scale(format!("{source}={factor:?}"))])
     }
 
     fn __repr__(&self) -> String {
@@ -351,6 +332,8 @@ impl Machine {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Restored<'_>)> {
         let restore = py.import("abbe._abbe")?.getattr("_restore")?;
-        Ok((restore, (&self.machine.origin, self.text.as_deref(), self.changes.clone())))
+        let changes =
+            serde_json::to_string(&self.changes).map_err(|e| PyValueError::new_err(e.to_string()))?;
+        Ok((restore, (&self.machine.origin, self.text.as_deref(), changes)))
     }
 }

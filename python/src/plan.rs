@@ -50,13 +50,7 @@ impl Machine {
         let ((job, report), notes) = run(py, None, progress, |notes| {
             let machine = self.machine.clone();
             let sets = sets.as_deref().map(|file| Sets::find(file, &machine.spec)).transpose()?;
-            let choice = match (sets, count) {
-                (Some(sets), None) => Choice::Sets(sets),
-                (Some(sets), Some(count)) => Choice::Among { sets, criterion, count },
-                (None, count) => {
-                    Choice::Optimal { criterion, count: count.unwrap_or(COUNT.default), candidates }
-                }
-            };
+            let choice = Choice::new(sets, count, criterion, candidates);
             let study = Study::find(study.as_deref(), &machine)?;
             let job = Plan { machine, map, choice, study, model_error: model_error.unwrap_or(0.0), seed };
             let report = job.run(notes)?;

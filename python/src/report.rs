@@ -209,7 +209,7 @@ impl Report {
     fn load(&self, py: Python<'_>) -> PyResult<Machine> {
         let pages = self.pages(py)?;
         match pages.into_iter().find(|(name, _)| self.spec.as_ref() == Some(name)) {
-            Some((name, text)) => restore_machine(py, &name, Some(text), Vec::new()),
+            Some((name, text)) => restore_machine(py, &name, Some(text), "[]"),
             None => Err(PyValueError::new_err(format!("a report of {} has no spec", self.kind))),
         }
     }

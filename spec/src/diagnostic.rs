@@ -1,5 +1,6 @@
 //! Diagnostics: mistakes in an input file with their location, rendered in the style of rustc.
 
+use std::borrow::Borrow;
 use std::ffi::OsStr;
 use std::fmt;
 use std::fs;
@@ -186,11 +187,7 @@ fn stem(name: &str) -> &str {
 
 /// Lists names in a sentence, and the number of names left out.
 pub fn listed(names: &[&str]) -> String {
-    let shown: Vec<String> = names.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
-    match names.len().saturating_sub(LISTED) {
-        0 => shown.join(", "),
-        more => format!("{} and {more} more", shown.join(", ")),
-    }
+    first(&names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>())
 }
 
 /// Returns the most similar name like [`nearest`], unless there are already `found` or more
@@ -214,7 +211,7 @@ pub(crate) fn suggestion(found: usize, word: &str, known: &[&str], what: &str) -
 }
 
 /// Lists the first of some names, and the number of names left out.
-pub(crate) fn first(names: &[&str]) -> String {
+pub(crate) fn first(names: &[impl Borrow<str>]) -> String {
     let shown = names[..names.len().min(LISTED)].join(", ");
     match names.len().saturating_sub(LISTED) {
         0 => shown,

@@ -16,13 +16,13 @@ use crate::number::exact_quantity;
 /// Changes to a spec, applied in order.
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
-    values: Vec<(Symbol, f64)>,
+    pub(crate) values: Vec<(Symbol, f64)>,
     /// Indices of sources, with `true` for those switched on.
     switches: Vec<(usize, bool)>,
     /// Indices of sources, with factors of their errors.
     scales: Vec<(usize, f64)>,
     /// Each change of a command line or of Python, as it was written.
-    stated: Vec<(&'static str, String)>,
+    pub(crate) stated: Vec<(&'static str, String)>,
 }
 
 impl Changes {
@@ -75,12 +75,6 @@ impl Changes {
             (None, _) => {}
         }
         document.finish(Some(changes))
-    }
-
-    /// Returns the changes of a command line or of Python as they were written, each with the name
-    /// of its option.
-    pub fn stated(&self) -> &[(&'static str, String)] {
-        &self.stated
     }
 
     /// Returns the changes as options, in the order in which they are applied. Numbers have all
@@ -152,22 +146,6 @@ impl Changes {
             }
             factor => self.scales.extend(factor.map(|factor| (source, factor))),
         }
-    }
-
-    /// Iterates over the indices of the inputs that are set.
-    pub fn inputs(&self) -> impl Iterator<Item = usize> {
-        self.values.iter().filter_map(|(symbol, _)| match symbol {
-            Symbol::Input(i) => Some(*i),
-            _ => None,
-        })
-    }
-
-    /// Iterates over the indices of the parameters that are set.
-    pub fn parameters(&self) -> impl Iterator<Item = usize> {
-        self.values.iter().filter_map(|(symbol, _)| match symbol {
-            Symbol::Parameter(i) => Some(*i),
-            _ => None,
-        })
     }
 
     /// Applies the changes. Values become the nominal ones.

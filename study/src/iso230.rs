@@ -4,9 +4,7 @@
 //! workpiece to the tool: an axis that carries the tool moves with its error, and the error of a
 //! table is seen from the part that carries it, so that there `E_i` has the opposite sign.
 
-use std::f64::consts::FRAC_PI_2;
-
-use abbe::{Component, Manipulator, Pose, VariableKind};
+use abbe::{Component, Manipulator, Pose, VariableKind, rotation_vector};
 use abbe_spec::Spec;
 use serde::Serialize;
 
@@ -93,20 +91,10 @@ fn direction(spec: &Spec, manipulator: &dyn Manipulator, variable: usize) -> Opt
     let close = |a: f64, b: f64| (a - b).abs() < 1e-9;
     let unit = |i: usize, k: usize| f64::from(u8::from(i == k));
     (0..3).all(|i| (0..3).all(|k| close(zero.0[i][k], unit(i, k)))).then_some(())?;
-    match spec.variables[variable].kind {
-        VariableKind::Prismatic => {
-            let (from, to) = (zero.position(), at(1.0)?.position());
-            (0..3).find(|axis| (0..3).all(|k| close(to[k] - from[k], unit(*axis, k))))
-        }
-        VariableKind::Revolute => {
-            // A quarter turn about an axis keeps it, and takes the next one to the one after.
-            let turned = at(FRAC_PI_2)?;
-            (0..3).find(|axis| {
-                let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-                (0..3).all(|k| {
-                    close(turned.0[*axis][k], unit(*axis, k)) && close(turned.0[next][k], unit(last, k))
-                })
-            })
-        }
-    }
+    let moved = at(1.0)?;
+    let by: [f64; 3] = match spec.variables[variable].kind {
+        VariableKind::Prismatic => std::array::from_fn(|k| moved.0[3][k] - zero.0[3][k]),
+        VariableKind::Revolute => rotation_vector(&moved),
+    };
+    (0..3).find(|axis| (0..3).all(|k| close(by[k], unit(*axis, k))))
 }

@@ -112,9 +112,14 @@ impl Machine {
     pub fn change(&mut self, changes: &Changes) {
         changes.apply(Arc::make_mut(&mut self.spec));
         self.changed |= !changes.is_empty();
-        self.fixed_inputs.extend(changes.inputs());
-        self.set_parameters.extend(changes.parameters());
-        self.stated_changes.extend_from_slice(changes.stated());
+        for (symbol, _) in &changes.values {
+            match *symbol {
+                Symbol::Parameter(i) => self.set_parameters.push(i),
+                Symbol::Input(i) => self.fixed_inputs.push(i),
+                _ => {}
+            }
+        }
+        self.stated_changes.extend_from_slice(&changes.stated);
     }
 
     /// Iterates over the changes that were made by options.

@@ -118,7 +118,7 @@ impl<'a> BudgetSweep<'a> {
     /// Evaluates some chunks; fewer if the watcher stops. Errors as for [`sweep`].
     pub fn part(&self, chunks: Range<usize>, watch: &mut dyn Watch) -> Result<PartialBudget, Unevaluated> {
         let chunks = chunks.start..chunks.end.min(self.chunks()).max(chunks.start);
-        let mut total = self.none(chunks.start);
+        let mut total = PartialBudget::none(chunks.start, self.sources);
         let (rows, mut here) = (watch.rows(), self.workspace.home().clone());
         in_order_until(
             chunks.len(),
@@ -172,10 +172,6 @@ impl<'a> BudgetSweep<'a> {
             unreachable: part.unreachable.finish(),
         }
     }
-
-    fn none(&self, chunk: usize) -> PartialBudget {
-        PartialBudget::none(chunk, self.sources)
-    }
 }
 
 /// Chunk: consecutive blocks of configurations.
@@ -192,7 +188,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
     #[inline(always)]
     fn run<R: Register>(self) -> Self::Output {
         let BudgetSweep { manipulator, workspace, .. } = *self.sweep;
-        let (mut part, mut blocks) = (self.sweep.none(self.number), Vec::new());
+        let (mut part, mut blocks) = (PartialBudget::none(self.number, self.sweep.sources), Vec::new());
         part.chunks.end += 1;
         let range = self.sweep.configurations(&part.chunks);
         let mut position = partial_errors::ErrorsAccumulator::<R>::new(&self.sweep.position);

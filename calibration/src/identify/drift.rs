@@ -24,8 +24,9 @@ pub struct Drift {
     pub lag_1: f64,
     /// Two-sided p-value of the autocorrelation, from random orders.
     pub p_of_lag_1: f64,
-    /// Component that correlates most with time.
-    pub follows: Follows,
+    /// Component that correlates most with time: the error along `x`, `y` or `z`, or the `distance`
+    /// between model and measurement.
+    pub follows: &'static str,
     /// Time constant of the best exponential, as a share of the duration; none for a straight line.
     pub settling: Option<f64>,
     /// Fitted change of the residuals from the first interval to the last, in the length unit: what
@@ -35,15 +36,6 @@ pub struct Drift {
     pub p: f64,
     /// Mean distances of the first and of the last tenth of the rows.
     pub ends: [f64; 2],
-}
-
-/// Component of the residuals.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Follows {
-    /// The error along axis 0, 1 or 2: x, y or z.
-    Axis(usize),
-    /// The distance between model and measurement.
-    Distance,
 }
 
 /// Largest number of time intervals; rows within an interval are averaged.
@@ -214,7 +206,7 @@ fn test_drift(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drif
     Ok(Some(Drift {
         lag_1,
         p_of_lag_1,
-        follows: if a < 3 { Follows::Axis(a) } else { Follows::Distance },
+        follows: ["x", "y", "z", "distance"][a],
         settling: *settling,
         change: slope * (basis[n - 1] - basis[0]),
         p,

@@ -123,7 +123,7 @@ pub use candidate_terms::{CandidateTerms, ModelTerm};
 pub use clustered::Independent;
 pub use configurations::Configurations;
 pub use design::{Design, Objective, optimal, whole};
-pub use drift::{Drift, Follows, drift};
+pub use drift::{Drift, drift};
 pub use evaluated_model::EvaluatedModel;
 pub use failure::Failure;
 pub use figures::{Comparison, Distances, Figures};

@@ -194,7 +194,7 @@ fn part(
 fn job(arguments: &Analyze, console: &mut Console) -> Result<analyze::Analyze, Failure> {
     let machine = arguments.subject.as_written()?;
     let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
-    let changes = arguments.subject.changes(&machine.spec)?;
+    let changes = arguments.subject.changes.read(&machine.spec)?;
     let mut job = analyze::Analyze::new(machine, study);
     job.change(&changes, console);
     if let Some(q) = &arguments.q {

@@ -27,7 +27,7 @@ pub(crate) struct Subject {
     #[arg(value_hint = ValueHint::FilePath)]
     spec: OsString,
     #[command(flatten)]
-    changes: Changes,
+    pub(crate) changes: Changes,
 }
 
 // Listed after the other options.
@@ -71,15 +71,10 @@ impl Subject {
         Machine::find(&self.spec)
     }
 
-    /// Reads the changes. Diagnostics point into the options.
-    pub(crate) fn changes(&self, spec: &Spec) -> Result<abbe_study::Changes, Diagnostics> {
-        self.changes.read(spec)
-    }
-
     /// Reads the machine and applies the changes.
     pub(crate) fn machine(&self) -> Result<Machine, Diagnostics> {
         let mut machine = self.as_written()?;
-        machine.change(&self.changes(&machine.spec)?);
+        machine.change(&self.changes.read(&machine.spec)?);
         Ok(machine)
     }
 }

@@ -102,6 +102,16 @@ impl Outputs {
         }
     }
 
+    /// Writes files with these texts, as [`finish`](Self::finish) does.
+    pub(crate) fn write<'t, T: AsRef<[u8]> + 't>(
+        mut self,
+        files: impl IntoIterator<Item = (PathBuf, &'t T)>,
+    ) -> Result<Printed, Failure> {
+        let files = files.into_iter().map(|(path, text)| self.file(&path)?.fill(text));
+        let files = files.collect::<Result<Vec<_>, Failure>>()?;
+        self.finish(files)
+    }
+
     /// Moves the complete files to their paths, each in one step. Signals wait until all are moved.
     ///
     /// Pipes and devices are written first: they may fail, and cannot be undone.

@@ -78,31 +78,13 @@ impl Links {
         self.onwards(graph, link, start).position
     }
 
-    /// Accumulates from the tip to `F_0`. At each frame i:
+    /// Accumulates from the tip to `F_0`, or to the axes behind the first `skipped` motions of
+    /// `A_1`. At each frame i:
     ///
     /// ```text
     /// ρ = p_T − p_i        take in ε_i at ρ        ρ ← t_i + R_i ρ, and what is accumulated ← R_i of it
     /// ```
-    pub(super) fn accumulate<A: Accumulated>(&self, graph: &mut Graph, errors: &[[Node; 6]], sum: A) -> A {
-        self.accumulate_past(graph, errors, 0, sum)
-    }
-
-    /// Accumulates like [`accumulate`](Self::accumulate), but stops behind the leading translations
-    /// and rotations about z of `A_1`. Magnitudes along z and across z are the same there as in
-    /// `F_0` and do not depend on the angles of these rotations.
-    pub(super) fn accumulate_behind_turns<A: Accumulated>(
-        &self,
-        graph: &mut Graph,
-        errors: &[[Node; 6]],
-        sum: A,
-    ) -> A {
-        let keeps_z = |motion: &&Local| matches!(motion, Local::Shift(_) | Local::Turn { axis: 2, .. });
-        let turns = self.frames.first().map_or(0, |motions| motions.iter().take_while(keeps_z).count());
-        self.accumulate_past(graph, errors, turns, sum)
-    }
-
-    /// Accumulates to the axes behind the first `skipped` motions of `A_1`.
-    fn accumulate_past<A: Accumulated>(
+    pub(super) fn accumulate<A: Accumulated>(
         &self,
         graph: &mut Graph,
         errors: &[[Node; 6]],
@@ -115,20 +97,18 @@ impl Links {
         sum
     }
 
-    /// Accumulates the effects of `frame` (from 0) and all frames behind it, in the axes of that
-    /// frame. Behind the last frame the sum is unchanged.
-    pub(super) fn accumulate_to<A: Accumulated>(
-        &self,
-        graph: &mut Graph,
-        errors: &[[Node; 6]],
-        frame: usize,
-        sum: A,
-    ) -> A {
-        self.behind(graph, errors, frame, sum).0
+    /// Returns the number of leading translations and rotations about z of `A_1`. Magnitudes along
+    /// z and across z are the same behind these as in `F_0` and do not depend on the angles of
+    /// these rotations.
+    pub(super) fn leading_turns(&self) -> usize {
+        let keeps_z = |motion: &&Local| matches!(motion, Local::Shift(_) | Local::Turn { axis: 2, .. });
+        self.frames.first().map_or(0, |motions| motions.iter().take_while(keeps_z).count())
     }
 
-    /// Returns the accumulated quantity and the tool point, both in the axes of `frame`.
-    fn behind<A: Accumulated>(
+    /// Accumulates the effects of `frame` (from 0) and all frames behind it. Returns the
+    /// accumulated quantity and the tool point, both in the axes of that frame. Behind the last
+    /// frame the sum is unchanged.
+    pub(super) fn behind<A: Accumulated>(
         &self,
         graph: &mut Graph,
         errors: &[[Node; 6]],

@@ -11,7 +11,7 @@ use crate::graph::{Graph, Node};
 /// Returns `ΔX = J_e ε`, accumulated along the chain.
 pub(super) fn along(graph: &mut Graph, links: &Links, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
     let none = Displacement::none(graph);
-    links.accumulate(graph, errors, none).column(graph, rows)
+    links.accumulate(graph, errors, 0, none).column(graph, rows)
 }
 
 /// Returns the six errors of every frame that each source causes alone; random sources at their

@@ -217,7 +217,9 @@ impl Magnitudes {
             let has_parts = |place: &usize| places.iter().filter(|other| *other == place).count() > 1;
             let most_signed = if places.iter().any(has_parts) { 0 } else { most_signed };
             let [norm, x, y, z, turn] = largest_of(g, &moved, &places, most_signed);
-            let across_z = largest_across_z(g, &moved, &places, most_signed);
+            // Behind the leading rotations about z.
+            let across_z: Vec<Vec<Node>> = moved.iter().map(|moved| moved.across_z.to_vec()).collect();
+            let across_z = largest_sum(g, &across_z, &places, most_signed);
             let [norm, x, y, z, across_z] = [norm, x, y, z, across_z].map(|sum| sum.and_radius(g, radius));
             ([norm, x, y, z, turn], across_z)
         });
@@ -239,17 +241,6 @@ fn largest_of(
     let norm = |of: fn(&ToolDisplacement) -> Vector| moved.iter().map(|moved| of(moved).to_vec()).collect();
     let vectors = [norm(|moved| moved.shift), along(0), along(1), along(2), norm(|moved| moved.turn)];
     vectors.map(|vectors| largest_sum(graph, &vectors, places, most_signed))
-}
-
-/// Returns the largest norm of x and y behind the leading rotations about z.
-fn largest_across_z(
-    graph: &mut Graph,
-    moved: &[ToolDisplacement],
-    places: &[usize],
-    most_signed: usize,
-) -> Magnitude {
-    let vectors: Vec<Vec<Node>> = moved.iter().map(|moved| moved.across_z.to_vec()).collect();
-    largest_sum(graph, &vectors, places, most_signed)
 }
 
 /// Returns the largest norm of the sum of vectors of one, two or three entries with any signs: over
@@ -343,11 +334,11 @@ impl ToolDisplacement {
         first: usize,
     ) -> Self {
         let none = Displacement::none(graph);
-        let Displacement { shift, mut turn } = links.accumulate_to(graph, errors, first, none);
+        let (Displacement { shift, mut turn }, _) = links.behind(graph, errors, first, none);
         let none = Displacement::none(graph);
-        let [x, y, z, four, five, six] = links.accumulate(graph, errors, none).column(graph, rows);
+        let [x, y, z, four, five, six] = links.accumulate(graph, errors, 0, none).column(graph, rows);
         let none = Displacement::none(graph);
-        let [across_x, across_y, _] = links.accumulate_behind_turns(graph, errors, none).shift;
+        let [across_x, across_y, _] = links.accumulate(graph, errors, links.leading_turns(), none).shift;
         if spec.orientation != Orientation::RotationVector {
             turn = [four, five, six];
         }

@@ -19,7 +19,7 @@ use abbe_spec::{ChainNumber, Factor, Spec};
 use super::accumulate::Links;
 use super::local::Local;
 use super::sources::Causes;
-use super::walk::{Step, apply_with, transform, walk};
+use super::walk::{apply_with, transform, walk};
 use crate::graph::{Frame, Graph, Node, Vector, in_programs};
 
 /// The chain with the errors of all sources, each times its magnitude.
@@ -193,8 +193,7 @@ impl<'a> RealChain<'a> {
     fn nominal(&self, graph: &mut Graph, pose: Frame, frame: usize) -> Frame {
         let factors = self.factors(frame);
         if !self.is_changed(frame) {
-            let mut unused: Vec<Step> = Vec::new();
-            return walk(graph, pose, factors, &mut unused);
+            return walk(graph, pose, factors, &mut Vec::new());
         }
         let value = |graph: &mut Graph, symbol: Symbol| self.value(graph, symbol);
         factors.iter().enumerate().fold(pose, |pose, (place, factor)| {

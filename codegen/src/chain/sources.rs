@@ -199,57 +199,47 @@ fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<[Node;
     let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
     for (uncertain, factor) in &source.propagated {
         let factor = graph.constant(source.scale * factor);
-        let mut add_scaled = |graph: &mut Graph, errors: &[[Node; 6]]| {
-            for (sum, errors) in sums.iter_mut().zip(errors) {
-                let scaled = errors.map(|error| graph.mul(factor, error));
-                add(graph, sum, scaled);
-            }
-        };
+        let mut unscaled = vec![[graph.zero(); 6]; spec.frames.len()];
         match uncertain {
             Uncertain::Input(input) => {
-                let mut whole = vec![[graph.zero(); 6]; spec.frames.len()];
                 let sources = spec.enabled_sources().zip(all);
                 for (_, errors) in sources.filter(|(source, _)| source.class == Class::Repeatable) {
-                    for (sum, errors) in whole.iter_mut().zip(errors) {
+                    for (sum, errors) in unscaled.iter_mut().zip(errors) {
                         add(graph, sum, *errors);
                     }
                 }
-                let slopes = graph.diff_all(whole.as_flattened(), Symbol::Input(*input));
-                let slopes: Vec<[Node; 6]> =
-                    slopes.chunks_exact(6).map(|six| std::array::from_fn(|i| six[i])).collect();
-                add_scaled(graph, &slopes);
+                let slopes = graph.diff_all(unscaled.as_flattened(), Symbol::Input(*input));
+                unscaled.as_flattened_mut().copy_from_slice(&slopes);
             }
             // The errors of a source are proportional to its magnitude.
             Uncertain::Identified(Identified::Magnitude(of)) => {
                 if let Some(of) = spec.enabled_index(*of) {
-                    add_scaled(graph, &all[of]);
+                    unscaled.clone_from(&all[of]);
                 }
             }
             Uncertain::Identified(Identified::Joint(joint)) => {
-                let mut unit = vec![[graph.zero(); 6]; spec.frames.len()];
                 for twist in frame_twists(graph, spec, ChainNumber::Joint(*joint)) {
-                    add(graph, &mut unit[twist.frame], six(twist.velocity, twist.rotation));
+                    add(graph, &mut unscaled[twist.frame], six(twist.velocity, twist.rotation));
                 }
-                add_scaled(graph, &unit);
             }
             Uncertain::Identified(Identified::Error(frame, component)) => {
-                let mut unit = vec![[graph.zero(); 6]; spec.frames.len()];
-                unit[*frame][*component as usize] = graph.constant(1.0);
-                add_scaled(graph, &unit);
+                unscaled[*frame][*component as usize] = graph.constant(1.0);
             }
             // E_0 A_i = A_i E_i with E_i = L E_0 L⁻¹, L = A_i⁻¹, for every frame i that hangs on F_0.
             Uncertain::Identified(Identified::Base(component)) => {
                 let mut there = [graph.zero(); 6];
                 there[*component as usize] = graph.constant(1.0);
-                let mut whole = vec![[graph.zero(); 6]; spec.frames.len()];
                 let on_base = spec.frames.iter().enumerate().filter(|(_, frame)| frame.parent.is_none());
                 for (i, frame) in on_base {
                     let first = transform(graph, &frame.factors);
                     let place = graph.inverse(&first);
-                    whole[i] = at_frame(graph, &place, there);
+                    unscaled[i] = at_frame(graph, &place, there);
                 }
-                add_scaled(graph, &whole);
             }
+        }
+        for (sum, errors) in sums.iter_mut().zip(unscaled) {
+            let scaled = errors.map(|error| graph.mul(factor, error));
+            add(graph, sum, scaled);
         }
     }
     sums

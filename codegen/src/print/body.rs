@@ -144,10 +144,8 @@ impl Writer<'_, '_> {
     }
 
     fn output(&self, operand: Operand) -> String {
-        let [zero, one] = self.syntax.zero_and_one();
         match operand {
-            Operand::Constant(0.0) => zero.to_owned(),
-            Operand::Constant(1.0) => one.to_owned(),
+            Operand::Constant(value @ (0.0 | 1.0)) => self.syntax.zero_or_one(value.abs()),
             operand => self.operand(operand).text,
         }
     }

@@ -38,8 +38,10 @@ pub(super) trait Syntax {
     }
     /// Returns a number as an operand.
     fn number(&self, value: f64) -> Expression;
-    /// Returns 0 and 1 as results.
-    fn zero_and_one(&self) -> [&'static str; 2];
+    /// Returns 0 or 1 as a result.
+    fn zero_or_one(&self, value: f64) -> String {
+        self.number(value).text
+    }
     /// Returns an action on operands that are expressions already.
     fn action(&self, action: Action, operands: &[Expression]) -> Expression;
 }

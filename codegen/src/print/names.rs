@@ -1,6 +1,7 @@
 //! Names of symbols and steps in generated code.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
+use std::fmt::Display;
 
 use abbe_core::{Component, Function};
 use abbe_spec::Spec;
@@ -33,15 +34,8 @@ pub(super) struct Names<'s> {
     used: HashSet<String>,
     identifiers: Identifiers,
     counter: usize,
-    variables: Vec<String>,
-    parameters: Vec<String>,
-    inputs: Vec<String>,
-    /// Six names per frame.
-    errors: Vec<String>,
-    magnitudes: Vec<String>,
-    target: Vec<String>,
-    /// Names of the numbers that the body of a loop reads.
-    locals: Vec<String>,
+    /// Names of the symbols; those of local ones change from block to block.
+    symbols: HashMap<Symbol, String>,
 }
 
 impl<'s> Names<'s> {
@@ -63,58 +57,41 @@ impl<'s> Names<'s> {
         let taken = reserved.split_whitespace().chain(arrays).map(str::to_owned);
         let taken = taken.chain(called.flatten()).chain(tables);
         let used = taken.map(|name| (identifiers.key)(&name)).collect();
-        let (variables, parameters, inputs) = (vec![], vec![], vec![]);
-        let (errors, magnitudes, target, locals) = (vec![], vec![], vec![], vec![]);
-        let mut names = Self {
-            spec,
-            used,
-            identifiers,
-            counter: 0,
-            variables,
-            parameters,
-            inputs,
-            errors,
-            magnitudes,
-            target,
-            locals,
-        };
-        names.variables = spec.variables.iter().map(|variable| names.free(&variable.name)).collect();
-        names.parameters = spec.parameters.iter().map(|parameter| names.free(&parameter.name)).collect();
-        names.inputs = spec.inputs.iter().map(|input| names.free(&input.name)).collect();
+        let mut names = Self { spec, used, identifiers, counter: 0, symbols: HashMap::new() };
+        let variables = spec.variables.iter().map(|variable| &variable.name).enumerate();
+        let parameters = spec.parameters.iter().map(|parameter| &parameter.name).enumerate();
+        let inputs = spec.inputs.iter().map(|input| &input.name).enumerate();
+        variables.for_each(|(i, name)| names.insert(Symbol::Variable(i), name));
+        parameters.for_each(|(i, name)| names.insert(Symbol::Parameter(i), name));
+        inputs.for_each(|(i, name)| names.insert(Symbol::Input(i), name));
         names
     }
 
-    /// Names the elements of an array of errors by its first letter: `v2_s` is the element of
-    /// `variances` for `e_s` of frame 2.
-    pub(super) fn name_errors(&mut self, given: &str) {
-        let letter = &given[..1];
-        for frame in 1..=self.spec.frames.len() {
-            for component in Component::ALL {
-                let suffix = component.name().trim_start_matches("e_");
-                let name = self.free(&format!("{letter}{frame}_{suffix}"));
-                self.errors.push(name);
-            }
+    fn insert(&mut self, symbol: Symbol, proposed: &str) {
+        let name = self.free(proposed);
+        self.symbols.insert(symbol, name);
+    }
+
+    /// Names the entries of an argument that the spec does not name, by the first letter of the
+    /// argument: `v2_s` is the element of `variances` for `e_s` of frame 2, `m1` the magnitude of
+    /// the first source. The pose that is to be reached is named by row and column: `t_13`, and
+    /// `t_x` of the position.
+    pub(super) fn name_entries(&mut self, argument: &str, symbols: &[Symbol]) {
+        let letter = &argument[..1];
+        for symbol in symbols {
+            let name = match *symbol {
+                Symbol::Error(i) => format!("{letter}{}_{}", i / 6 + 1, suffix(i % 6)),
+                Symbol::Magnitude(i) => format!("{letter}{}", i + 1),
+                Symbol::Target(i) => entry_of_pose(letter, i),
+                _ => continue,
+            };
+            self.insert(*symbol, &name);
         }
-    }
-
-    /// Names the magnitudes of the sources, counted from 1: `m1`.
-    pub(super) fn name_magnitudes(&mut self, count: usize) {
-        self.magnitudes = (1..=count).map(|source| self.free(&format!("m{source}"))).collect();
-    }
-
-    /// Names the entries of the pose that is to be reached, by row and column: `t_13`, and `t_x` of
-    /// the position.
-    pub(super) fn name_target(&mut self) {
-        let entry = |i: usize| match i {
-            0..9 => format!("t_{}{}", i % 3 + 1, i / 3 + 1),
-            _ => format!("t_{}", ["x", "y", "z"][i - 9]),
-        };
-        self.target = (0..12).map(|i| self.free(&entry(i))).collect();
     }
 
     /// Clears the names of local symbols at the start of another block.
     pub(super) fn forget_locals(&mut self) {
-        self.locals.clear();
+        self.symbols.retain(|symbol, _| !matches!(symbol, Symbol::Local(_)));
     }
 
     /// Names the used elements of a row, whose first element is local symbol `first`: poses by row
@@ -124,11 +101,8 @@ impl<'s> Names<'s> {
         let singular = array.name.trim_end_matches('s');
         let proposed = |i: usize| match (used.len(), array.name) {
             (_, "passive" | "real_passive") => self.spec.passive[i].name.clone(),
-            (12, _) if i < 9 => format!("{letter}_{}{}", i % 3 + 1, i / 3 + 1),
-            (12, _) => format!("{letter}_{}", ["x", "y", "z"][i - 9]),
-            (6, "errors" | "variances") => {
-                format!("{letter}_{}", Component::ALL[i].name().trim_start_matches("e_"))
-            }
+            (12, _) => entry_of_pose(letter, i),
+            (6, "errors" | "variances") => format!("{letter}_{}", suffix(i)),
             (3, _) => format!("{singular}_{}", ["x", "y", "z"][i]),
             (1, _) => singular.to_owned(),
             _ => format!("{singular}_{}", i + 1),
@@ -149,11 +123,9 @@ impl<'s> Names<'s> {
 
     /// Sets the names of the local symbols from `first` on.
     pub(super) fn take_locals(&mut self, first: usize, names: &[Option<String>]) {
-        self.used.extend(names.iter().flatten().map(|name| (self.identifiers.key)(name)));
-        let last = first + names.len();
-        self.locals.resize(self.locals.len().max(last), String::new());
-        for (local, name) in self.locals[first..].iter_mut().zip(names) {
-            local.clone_from(name.as_ref().unwrap_or(&String::new()));
+        for (i, name) in names.iter().enumerate().filter_map(|(i, name)| Some((i, name.as_ref()?))) {
+            self.used.insert((self.identifiers.key)(name));
+            self.symbols.insert(Symbol::Local(first + i), name.clone());
         }
     }
 
@@ -161,14 +133,9 @@ impl<'s> Names<'s> {
     /// symbol.
     pub(super) fn symbol(&self, symbol: Symbol) -> &str {
         match symbol {
-            Symbol::Variable(i) => &self.variables[i],
-            Symbol::Parameter(i) => &self.parameters[i],
-            Symbol::Input(i) => &self.inputs[i],
-            // Named before the body is printed, in the functions that take errors.
-            Symbol::Error(i) => &self.errors[i],
-            Symbol::Magnitude(i) => &self.magnitudes[i],
-            Symbol::Target(i) => &self.target[i],
-            Symbol::Passive(i) | Symbol::Local(i) => &self.locals[i],
+            Symbol::Passive(i) => &self.symbols[&Symbol::Local(i)],
+            // Errors are named before the body is printed, in the functions that take them.
+            symbol => &self.symbols[&symbol],
         }
     }
 
@@ -198,7 +165,9 @@ impl<'s> Names<'s> {
             }
             Operand::Symbol(Symbol::Parameter(i)) => of(&self.spec.parameters[i].name),
             Operand::Symbol(Symbol::Input(i)) => of(&self.spec.inputs[i].name),
-            Operand::Symbol(Symbol::Local(i)) if i < self.spec.passive.len() => of(&self.locals[i]),
+            Operand::Symbol(local @ Symbol::Local(i)) if i < self.spec.passive.len() => {
+                of(self.symbol(local))
+            }
             _ => {
                 self.counter += 1;
                 of(&self.counter.to_string())
@@ -213,6 +182,19 @@ impl<'s> Names<'s> {
         self.used.insert(key(&name));
         name
     }
+}
+
+/// Returns the name of an entry of a pose, by row and column.
+fn entry_of_pose(letter: impl Display, i: usize) -> String {
+    match i {
+        0..9 => format!("{letter}_{}{}", i % 3 + 1, i / 3 + 1),
+        _ => format!("{letter}_{}", ["x", "y", "z"][i - 9]),
+    }
+}
+
+/// Returns the letter of a generalized error.
+fn suffix(component: usize) -> &'static str {
+    Component::ALL[component].name().trim_start_matches("e_")
 }
 
 /// Returns the name of the function of a lookup table.

@@ -38,6 +38,10 @@ pub(super) trait Printer {
     const LEAVE: &'static str = "break;";
     /// The sign of negations.
     const NOT: &'static str = "!";
+    /// The operators "and", "or" and "is".
+    const OPERATORS: [&'static str; 3] = ["&&", "||", "=="];
+    /// The truth values.
+    const TRUTH: [&'static str; 2] = ["false", "true"];
     /// The sign of assignments, and the end of a statement.
     const ASSIGN: [&'static str; 2] = ["=", ";"];
     /// `true` if the language has `+=`.
@@ -55,11 +59,6 @@ pub(super) trait Printer {
     /// Returns the name of a function.
     fn function(&self, called: Called) -> String {
         Self::FUNCTIONS[called as usize].to_owned()
-    }
-
-    /// Returns the operators "and", "or" and "is".
-    fn operators(&self) -> [&'static str; 3] {
-        ["&&", "||", "=="]
     }
 
     /// Returns the negation of a condition.
@@ -90,11 +89,6 @@ pub(super) trait Printer {
     /// Returns a variable as a condition.
     fn flag(&self, name: &str) -> String {
         name.to_owned()
-    }
-
-    /// Returns a truth value.
-    fn truth(&self, value: bool) -> String {
-        value.to_string()
     }
 
     /// Returns a status.
@@ -296,8 +290,7 @@ pub(super) trait Printer {
                 self.assign(&place, &value, sum.as_deref());
             }
             Statement::SetFlag(name, value) => {
-                let value = self.truth(*value);
-                self.assign(name, &value, None);
+                self.assign(name, Self::TRUTH[usize::from(*value)], None);
             }
             Statement::SetWhole(name, value) => {
                 let value = match value {
@@ -366,7 +359,7 @@ pub(super) trait Printer {
     }
 
     fn condition(&self, condition: &Condition) -> String {
-        let [and, or, is] = self.operators();
+        let [and, or, is] = Self::OPERATORS;
         // Every operand of `and` and `or` has parentheses, as MISRA wants.
         let operand = |condition: &Condition| match condition {
             Condition::Flag(name) => self.flag(name),

@@ -93,28 +93,15 @@ impl Writer<'_> {
     fn arguments(&mut self, used: &HashSet<Symbol>) -> Vec<Statement> {
         let mut statements = Vec::new();
         for (array, argument) in self.routine.arrays.iter().enumerate() {
-            let symbol = match (argument.role, argument.name) {
-                (Role::Argument, "q") => Symbol::Variable,
-                (Role::Argument, "s") => Symbol::Parameter,
-                (Role::Argument, "u") => Symbol::Input,
-                (Role::Argument, "magnitudes") => {
-                    self.names.name_magnitudes(argument.len(self.description));
-                    Symbol::Magnitude
-                }
-                (Role::Argument, "target") => {
-                    self.names.name_target();
-                    Symbol::Target
-                }
-                (Role::Argument, "errors" | "variances") => {
-                    if used.iter().any(|symbol| matches!(symbol, Symbol::Error(_))) {
-                        self.names.name_errors(argument.name);
-                    }
-                    Symbol::Error
-                }
-                _ => continue,
+            let Some(symbol) = symbol_of(argument.name).filter(|_| argument.role == Role::Argument) else {
+                continue;
             };
             let symbols: Vec<Symbol> = (0..argument.len(self.description)).map(symbol).collect();
-            if symbols.iter().any(|symbol| used.contains(symbol)) {
+            let is_used = symbols.iter().any(|symbol| used.contains(symbol));
+            if is_used || !matches!(symbols[..], [Symbol::Error(_), ..]) {
+                self.names.name_entries(argument.name, &symbols);
+            }
+            if is_used {
                 let name = |symbol| used.contains(symbol).then(|| self.names.symbol(*symbol).to_owned());
                 let names = symbols.iter().map(name).collect();
                 statements.push(Statement::Unpack { names, from: ArrayRows { array, row: Row::All } });
@@ -358,21 +345,26 @@ fn used_symbols(program: &Program) -> HashSet<Symbol> {
     operands.chain(program.outputs.iter().copied()).filter_map(symbol).collect()
 }
 
+/// Returns the symbol of each entry of an array, if programs use the entries as symbols.
+fn symbol_of(array: &str) -> Option<fn(usize) -> Symbol> {
+    Some(match array {
+        "q" => Symbol::Variable,
+        "s" => Symbol::Parameter,
+        "u" => Symbol::Input,
+        "errors" | "variances" => Symbol::Error,
+        "magnitudes" => Symbol::Magnitude,
+        "target" => Symbol::Target,
+        _ => return None,
+    })
+}
+
 /// Returns `true` if the routine reads or writes an array; `symbols` are those of the routine.
 fn uses(routine: &Routine, symbols: &HashSet<Symbol>, description: &Description, array: usize) -> bool {
-    let as_symbols = symbols.iter().any(|symbol| {
-        let name = match symbol {
-            Symbol::Variable(_) => "q",
-            Symbol::Parameter(_) => "s",
-            Symbol::Input(_) => "u",
-            Symbol::Error(_) => return matches!(routine.arrays[array].name, "errors" | "variances"),
-            Symbol::Magnitude(_) => "magnitudes",
-            Symbol::Target(_) => "target",
-            Symbol::Passive(_) | Symbol::Local(_) => return false,
-        };
-        name == routine.arrays[array].name
-    });
     let declared = &routine.arrays[array];
+    let is_used = |symbol: fn(usize) -> Symbol| {
+        (0..declared.len(description)).any(|entry| symbols.contains(&symbol(entry)))
+    };
+    let as_symbols = symbol_of(declared.name).is_some_and(is_used);
     let some = declared.len(description) > 0 || declared.shape.len() == declared.row_rank();
     let in_stage = |stage: &Stage| match stage {
         Stage::Block(block) => block.reads.iter().chain(&block.writes).any(|place| place.array == array),

@@ -259,13 +259,17 @@ fn arguments_and_results(signature: &Signature, orientation: Orientation) -> Vec
 
 /// Returns the stages with a program that fills all results.
 pub(super) fn at_once(model: &Model, arrays: &mut Vec<Array>, program: Program) -> Vec<Stage> {
-    if let Some(tree) = &model.loops {
-        return LoopRoutineBuilder::new(model, tree, arrays).at_once(program, None);
+    let results = (0..arrays.len()).filter(|array| arrays[*array].role != Role::Argument).collect();
+    filled(model, arrays, program, results)
+}
+
+/// Returns the stages with a program that fills some results.
+fn filled(model: &Model, arrays: &mut Vec<Array>, program: Program, results: Vec<usize>) -> Vec<Stage> {
+    let writes = results.into_iter().map(ArrayRows::all).collect();
+    match &model.loops {
+        Some(tree) => LoopRoutineBuilder::new(model, tree, arrays).at_once(program, writes),
+        None => vec![Stage::Block(Block { reads: vec![], program, writes, repeated: None })],
     }
-    let filled = |(_, array): &(usize, &Array)| array.role != Role::Argument;
-    let writes =
-        arrays.iter().enumerate().filter(filled).map(|(array, _)| ArrayRows { array, row: Row::All });
-    vec![Stage::Block(Block { reads: vec![], program, writes: writes.collect(), repeated: None })]
 }
 
 /// Returns the stages for the real pose and for the nominal twists of the joints, which share
@@ -279,14 +283,7 @@ fn compensator_step(model: &Model, arrays: &mut Vec<Array>, description: &Descri
         columns.into_iter().filter(|array| !arrays[*array].is_empty(description)).collect();
     for array in columns {
         let program = Program::new(&model.graph, &model.joint_twists.concat());
-        match &model.loops {
-            Some(tree) => stages
-                .extend(LoopRoutineBuilder::new(model, tree, arrays).at_once(program, Some(vec![array]))),
-            None => {
-                let writes = vec![ArrayRows { array, row: Row::All }];
-                stages.push(Stage::Block(Block { reads: vec![], program, writes, repeated: None }));
-            }
-        }
+        stages.extend(filled(model, arrays, program, vec![array]));
     }
     stages
 }

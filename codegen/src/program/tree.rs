@@ -4,7 +4,7 @@ use abbe_core::Function;
 use abbe_core::function::Count;
 use abbe_spec::expr::Symbol;
 
-use super::routine::{Array, ArrayRows, Block, Repeated, Role, Row, Stage};
+use super::routine::{Array, ArrayRows, Block, Repeated, Role, Stage};
 use super::{Program, Rounded};
 use crate::chain::{ClosedLoops, Model, Path, RealNodes, STEPS};
 use crate::graph::{Graph, Node};
@@ -41,13 +41,8 @@ impl<'d> LoopRoutineBuilder<'d> {
         Some(self.stages)
     }
 
-    /// Returns the stages that fill all results, or these, by a program at the nominal passive
-    /// variables.
-    pub(super) fn at_once(mut self, program: Program, results: Option<Vec<usize>>) -> Vec<Stage> {
-        let results = results.unwrap_or_else(|| {
-            (0..self.arrays.len()).filter(|array| self.arrays[*array].role != Role::Argument).collect()
-        });
-        let writes = results.into_iter().map(ArrayRows::all).collect();
+    /// Returns the stages that write rows by a program at the nominal passive variables.
+    pub(super) fn at_once(mut self, program: Program, writes: Vec<ArrayRows>) -> Vec<Stage> {
         let reads = if reads_passive(&program) { vec![ArrayRows::all(self.nominal())] } else { Vec::new() };
         self.stages.push(Stage::Block(Block { reads, program, writes, repeated: None }));
         self.stages
@@ -102,7 +97,7 @@ impl<'d> LoopRoutineBuilder<'d> {
             errors
         });
         let passive = self.local("real_passive", Count::Passive);
-        self.stages.push(Stage::Copy { from: ArrayRows { array: nominal, row: Row::All }, to: passive });
+        self.stages.push(Stage::Copy { from: ArrayRows::all(nominal), to: passive });
         self.follow(&Path::with_errors(graph, self.loops, real), passive, errors);
         let reads: Vec<usize> = [passive].into_iter().chain(errors).collect();
         let results = [self.array("pose")];
@@ -114,8 +109,7 @@ impl<'d> LoopRoutineBuilder<'d> {
     fn follow(&mut self, path: &Path, passive: usize, errors: Option<usize>) {
         let reached = self.local("reached", Count::Passive);
         let state = self.local("path", Count::Exactly(path.start.len()));
-        let whole = ArrayRows { array: passive, row: Row::All };
-        self.stages.push(Stage::Copy { from: whole, to: reached });
+        self.stages.push(Stage::Copy { from: ArrayRows::all(passive), to: reached });
         self.block(&[passive], &[state], Program::new(&path.graph, &path.start), None);
         let writes = [passive, reached, state];
         let reads: Vec<usize> = [passive].into_iter().chain(errors).chain([reached, state]).collect();

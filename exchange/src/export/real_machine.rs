@@ -212,11 +212,6 @@ impl RealMachine {
         Ok((transforms.iter().enumerate().map(link).collect(), tool))
     }
 
-    /// Compares the nominal poses with the real ones.
-    pub(super) fn nominal_difference(&self) -> PoseDifference {
-        PoseDifference::new(self.ideal.iter().zip(&self.real).map(|(ideal, real)| [*ideal, *real]))
-    }
-
     /// Compares the poses of a model with the real ones.
     pub(crate) fn model_difference(&self, model: impl Fn(&[f64]) -> Pose) -> PoseDifference {
         let pairs = self.configurations.iter().zip(&self.real);

@@ -117,6 +117,7 @@ impl ExportReport {
         remains: PoseDifference,
         sign: String,
     ) -> Self {
+        let pairs = machine.ideal.iter().zip(&machine.real);
         Self {
             name: machine.spec.name.clone(),
             format,
@@ -125,7 +126,7 @@ impl ExportReport {
             changes: Vec::new(),
             left_out: Vec::new(),
             compared,
-            before: machine.nominal_difference(),
+            before: PoseDifference::new(pairs.map(|(ideal, real)| [*ideal, *real])),
             at_nodes: None,
             remains,
             placed: None,

@@ -93,7 +93,6 @@ impl<'a> RealTool<'a> {
     /// converged.
     pub(super) fn nearest(&self, first: &[f64]) -> Result<(Vec<f64>, [f64; 6], bool), Error> {
         let (mut best, _) = self.steps(self.place(self.within(first.iter().copied()))?, TURN[0], COARSE)?;
-        let mut rest = false;
         if !self.arrived(&best.after) && self.may_gain(&best) {
             for start in 0..=STARTS {
                 // A start that cannot be evaluated is skipped.
@@ -109,9 +108,7 @@ impl<'a> RealTool<'a> {
                 }
             }
         }
-        for turn in TURN {
-            (best, rest) = self.steps(best, turn, NOTHING)?;
-        }
+        let (best, rest) = self.refined(best)?;
         Ok((best.q, best.after, rest))
     }
 
@@ -139,8 +136,11 @@ impl<'a> RealTool<'a> {
     /// Descends with both weights, one after the other. Returns the end, and whether the steps
     /// converged.
     pub(super) fn descend(&self, q: Vec<f64>) -> Result<(DescentState, bool), Error> {
+        self.refined(self.place(self.within(q.into_iter()))?)
+    }
+
+    fn refined(&self, mut place: DescentState) -> Result<(DescentState, bool), Error> {
         let mut rest = false;
-        let mut place = self.place(self.within(q.into_iter()))?;
         for turn in TURN {
             (place, rest) = self.steps(place, turn, NOTHING)?;
         }

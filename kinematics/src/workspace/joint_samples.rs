@@ -13,15 +13,6 @@ use crate::sampling::{self, RadicalInverses, stream};
 use abbe_core::lanes::{Kernel, Register, Tiles};
 use abbe_core::{Error, List, Manipulator, Quantity};
 
-/// Source of the sample values.
-#[derive(Clone, Copy, Debug)]
-enum Spread {
-    /// Halton sequence.
-    Even,
-    /// Random numbers: one stream per sampled quantity and [`STREAM`] configurations.
-    Random { seed: u64 },
-}
-
 /// Workspace of samples of some variables and inputs; see [`joint_samples`] and
 /// [`random_joint_samples`].
 #[derive(Clone, Debug)]
@@ -29,7 +20,9 @@ pub struct JointSamples {
     home: Configuration,
     moved: Vec<SampledQuantity>,
     count: usize,
-    spread: Spread,
+    /// Seed of random samples, with one stream per sampled quantity and [`STREAM`] configurations;
+    /// `None` for a Halton sequence.
+    seed: Option<u64>,
     sums: SumLimits,
 }
 
@@ -63,7 +56,7 @@ pub fn joint_samples(
     moved: &[usize],
     count: usize,
 ) -> Result<JointSamples, Error> {
-    samples(manipulator, moved, count, Spread::Even)
+    samples(manipulator, moved, count, None)
 }
 
 /// Creates a workspace of random samples, otherwise as [`joint_samples`]. Configuration `i` depends
@@ -74,14 +67,14 @@ pub fn random_joint_samples(
     count: usize,
     seed: u64,
 ) -> Result<JointSamples, Error> {
-    samples(manipulator, moved, count, Spread::Random { seed })
+    samples(manipulator, moved, count, Some(seed))
 }
 
 fn samples(
     manipulator: &dyn Manipulator,
     moved: &[usize],
     count: usize,
-    spread: Spread,
+    seed: Option<u64>,
 ) -> Result<JointSamples, Error> {
     let description = manipulator.description();
     in_range(moved.iter().copied(), Quantity::Variables, description.variables.len())?;
@@ -97,7 +90,7 @@ fn samples(
     let order: Vec<usize> = held.chain(moved.iter().rev().copied()).collect();
     let sums = SumLimits::new(description, &order);
     let moved = sampled.collect();
-    Ok(JointSamples { home, moved, count, spread, sums })
+    Ok(JointSamples { home, moved, count, seed, sums })
 }
 
 impl Workspace for JointSamples {
@@ -111,15 +104,15 @@ impl Workspace for JointSamples {
 
     fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
         configuration.copy_from(&self.home);
-        match self.spread {
-            Spread::Even => {
+        match self.seed {
+            None => {
                 for moved in &self.moved {
                     let mut share = [0.0];
                     moved.shares.fill(index + 1, &mut share);
                     *moved.coordinate.value(configuration) = moved.at(share[0]);
                 }
             }
-            Spread::Random { seed } => {
+            Some(seed) => {
                 for (random, moved) in self.streams(seed, index / STREAM).iter_mut().zip(&self.moved) {
                     (0..index % STREAM).for_each(|_| _ = random.next_u64());
                     *moved.coordinate.value(configuration) = moved.at(random.random());
@@ -134,13 +127,13 @@ impl Workspace for JointSamples {
             return false;
         }
         let moved = self.moved.iter().map(|moved| self.row(moved.coordinate)).collect::<Vec<_>>();
-        match self.spread {
-            Spread::Even => {
+        match self.seed {
+            None => {
                 let set = rows.instruction_set();
                 set.run(Even { moved: &self.moved, chosen: &moved, first: range.start + 1, rows });
             }
-            Spread::Random { .. } if !range.start.is_multiple_of(STREAM) => return false,
-            Spread::Random { seed } => {
+            Some(_) if !range.start.is_multiple_of(STREAM) => return false,
+            Some(seed) => {
                 for first in range.clone().step_by(STREAM) {
                     let mut streams = self.streams(seed, first / STREAM);
                     let count = STREAM.min(range.end - first);
@@ -201,11 +194,7 @@ impl JointSamples {
         if self.sums.is_empty() {
             return Ok(());
         }
-        let seed = match self.spread {
-            Spread::Even => 0,
-            Spread::Random { seed } => seed,
-        };
-        let mut random = stream(!seed, index);
+        let mut random = stream(!self.seed.unwrap_or(0), index);
         for _ in 0..REDRAWN {
             self.sums.lead(&mut configuration.q);
             if self.sums.check(&configuration.q).is_ok() {

@@ -172,7 +172,10 @@ impl Instruments {
         let mut readings = vec![None; self.observables.len()];
         let read = self.read_in(setup);
         if read.is_empty() {
-            return Err("the map has no instrument in this setup".to_owned());
+            let is_stated = setup.is_some() || skipped == 0;
+            return Err(
+                if is_stated { "the map has no instrument in this setup" } else { NOTHING_READ }.to_owned()
+            );
         }
         for instrument in read.into_iter().map(|i| &self.list[i]) {
             for (place, reading) in instrument.observables.clone().enumerate() {

@@ -1,13 +1,13 @@
 //! Rows of a data file: usable observations, and the reasons of the others.
 
 use std::borrow::Cow;
-use std::hash::{BuildHasher, Hash, Hasher, RandomState};
+use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use abbe::identify::{Approach, Configurations, Measurement, Observation};
 use abbe_spec::diagnostic::Diagnostics;
-use hashbrown::HashTable;
 use serde::Serialize;
 
 use super::column::{Channel, Column};
@@ -64,7 +64,8 @@ impl Data {
         Self { observations, ..self.clone() }
     }
 
-    /// Reads commands and measurements. Exact repetitions of a row are unusable.
+    /// Reads commands and measurements. Exact repetitions of a row are unusable: copies, unless
+    /// their times differ, or fewer than three readings were rounded to the same numbers.
     pub fn read<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
         Self::rows(source.into(), map, Wanted::Measured, true)
     }
@@ -121,7 +122,7 @@ impl Data {
         let [group, direction, time] =
             [&map.group, &map.direction, &map.time].map(|column| column.as_ref().and_then(|c| place(&c)));
         let (mut groups, mut directions) = (Vec::new(), Vec::new());
-        let mut known = Known::default();
+        let mut known = HashSet::new();
         // Previous row, for readings that refer to it.
         let from_before = map.instruments().is_some_and(Instruments::depend_on_previous_row);
         let mut before: Option<Observation> = None;
@@ -130,11 +131,11 @@ impl Data {
             let measured = (columns == Wanted::Measured).then_some(&measured[..]);
             let here = from_before.then(|| row(&record, &commanded, None, map).ok()).flatten();
             let row = row(&record, &commanded, measured, map).and_then(|row| {
-                if once && known.has(&row, &data.observations) {
-                    return Err("identical to an earlier row".to_owned());
-                }
                 if moved_from_nowhere(&row, before.as_ref(), map) {
                     return Err("this relative reading has no row before it".to_owned());
+                }
+                if once && map.time.is_none() && row.count() > 2 && !known.insert(hash(&row)) {
+                    return Err("identical to an earlier row".to_owned());
                 }
                 Ok((row, time.map(|place| record.time(place)).transpose()?))
             });
@@ -144,9 +145,6 @@ impl Data {
                     let from = before.take().map(|from| Box::new(Observation { station, ..from }));
                     let approach = Approach { time, from, ..Approach::default() };
                     data.observations.push(Observation { station, ..observation }.approached(approach));
-                    if once {
-                        known.add(&data.observations);
-                    }
                     groups.extend(group.map(|place| record.text(place).into_owned()));
                     directions.extend(direction.map(|place| record.text(place).into_owned()));
                 }
@@ -156,7 +154,6 @@ impl Data {
             }
             before = here;
         }
-        drop(known);
         let directions = Configurations::from_keys(directions).number;
         let directions = data.observations.iter_mut().zip(directions).filter(|(_, number)| *number > 0);
         directions.for_each(|(row, number)| row.approach_mut().direction = number);
@@ -282,35 +279,11 @@ impl Summary {
     }
 }
 
-/// Set of rows by the hash of their values: 5 bytes per row.
-#[derive(Default)]
-struct Known {
-    places: HashTable<u32>,
-    digits: RandomState,
-}
-
-impl Known {
-    /// Returns whether an equal row is among `rows`.
-    fn has(&self, row: &Observation, rows: &[Observation]) -> bool {
-        self.places.find(hash(&self.digits, row), |place| is_same(&rows[*place as usize], row)).is_some()
-    }
-
-    /// Adds the last of the rows.
-    fn add(&mut self, rows: &[Observation]) {
-        let hash_of = |place: usize| hash(&self.digits, &rows[place]);
-        let last = rows.len() - 1;
-        self.places.insert_unique(hash_of(last), last as u32, |place| hash_of(*place as usize));
-    }
-}
-
-fn hash(digits: &RandomState, row: &Observation) -> u64 {
-    let mut hasher = digits.build_hasher();
-    for_each_number(row, |number| number.map(f64::to_bits).hash(&mut hasher));
-    hasher.finish()
-}
-
-/// Passes on joints, inputs and measurement of a row; `None` for what was not measured.
-pub(crate) fn for_each_number(row: &Observation, mut take: impl FnMut(Option<f64>)) {
+/// Returns the hash of joints, inputs and measurement of a row.
+pub(crate) fn hash(row: &Observation) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    // Adding 0 turns −0 into +0, so that both have the same hash.
+    let mut take = |number: Option<f64>| number.map(|number| (number + 0.0).to_bits()).hash(&mut hasher);
     row.q.iter().chain(row.u.iter()).for_each(|value| take(Some(*value)));
     match &row.measured {
         Measurement::Points(points) => {
@@ -319,11 +292,7 @@ pub(crate) fn for_each_number(row: &Observation, mut take: impl FnMut(Option<f64
         Measurement::Pose(pose) => pose.0.as_flattened().iter().for_each(|value| take(Some(*value))),
         Measurement::Readings(readings) => readings.iter().for_each(|reading| take(*reading)),
     }
-}
-
-/// Returns whether two rows are equal.
-pub(crate) fn is_same(a: &Observation, b: &Observation) -> bool {
-    a.q == b.q && a.u == b.u && a.measured == b.measured
+    hasher.finish()
 }
 
 /// Converts a record to an observation; `measured` are the columns of the measurement, none for a

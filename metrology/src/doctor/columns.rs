@@ -167,10 +167,11 @@ fn pose(heading: &[String], rest: &[usize]) -> Vec<usize> {
     let Some(position) = named(heading, rest, &["x", "y", "z"]) else { return rest.to_vec() };
     let orientation = ORIENTATIONS.iter().find_map(|names| named(heading, rest, names));
     let is_other = |place: &usize| OTHERS.iter().any(|other| plain(&heading[*place]).starts_with(other));
-    let kept: Vec<usize> = match &orientation {
-        Some(orientation) => rest.iter().filter(|place| orientation.contains(place)).copied().collect(),
-        None => rest.iter().filter(|place| !position.contains(place) && !is_other(place)).copied().collect(),
+    let is_kept = |place: &&usize| match &orientation {
+        Some(orientation) => orientation.contains(place),
+        None => !position.contains(place) && !is_other(place),
     };
+    let kept: Vec<usize> = rest.iter().filter(is_kept).copied().collect();
     let all = [&position[..], &kept].concat();
     if PoseFormat::all(all.len()).is_empty() { position } else { all }
 }

@@ -1,6 +1,6 @@
 //! Tests drift of the residuals with the row order.
 
-use abbe::identify::{Drift, Follows};
+use abbe::identify::Drift;
 use serde::Serialize;
 
 /// False-alarm rate of the test.
@@ -33,20 +33,7 @@ pub struct ResidualDrift {
 impl ResidualDrift {
     pub(crate) fn new(drift: Drift) -> Self {
         let Drift { lag_1, p_of_lag_1, follows, settling, change, p, ends } = drift;
-        let follows = match follows {
-            Follows::Axis(axis) => ["x", "y", "z"][axis],
-            Follows::Distance => "distance",
-        };
-        Self {
-            lag_1,
-            p_of_lag_1,
-            follows,
-            settling,
-            change,
-            p,
-            is_drift: p <= FALSE_ALARMS,
-            false_alarms: FALSE_ALARMS,
-            ends,
-        }
+        let (is_drift, false_alarms) = (p <= FALSE_ALARMS, FALSE_ALARMS);
+        Self { lag_1, p_of_lag_1, follows, settling, change, p, is_drift, false_alarms, ends }
     }
 }

@@ -14,27 +14,15 @@ use abbe_study::{Notes, mistake, number};
 /// Residual, as a share of the arm length, above which errors are too large for a machine.
 const LARGE: f64 = 1e-2;
 
-/// Returns a warning if a root mean square error is too large for a machine. `fitted` is the error
-/// with base and tool fitted, if that fit succeeded.
-pub(crate) fn too_large(rms: f64, fitted: Option<f64>, setup: &Setup) -> Option<String> {
-    let large = LARGE * setup.arm;
-    if rms <= large {
-        return None;
-    }
-    let length = |value| number::length(value, setup.description.length);
-    let share = number::percent(rms, setup.arm);
-    let statement = format!("implausible errors of {} (root mean square), {share} of the arm:", length(rms));
-    Some(match fitted {
-        Some(left) if left <= large => format!(
-            "{statement} {} remain with base and tool fitted. Check the placement of the \
-             instrument (`base = \"unknown\"` in the map fits it) and of the target.",
-            length(left)
-        ),
-        _ => format!(
-            "{statement} no placement of base and tool and no other interpretation (units, signs, \
-             column order) fits. Check that these are measurements of this machine; `abbe doctor` \
-             tries more conventions."
-        ),
+/// Returns a warning if a root mean square error is too large for a machine.
+pub(crate) fn too_large(rms: f64, setup: &Setup) -> Option<String> {
+    let (length, share) = (number::length(rms, setup.description.length), number::percent(rms, setup.arm));
+    (rms > LARGE * setup.arm).then(|| {
+        format!(
+            "implausible errors of {length} (root mean square), {share} of the arm: no placement of base and \
+             tool and no other interpretation (units, signs, column order) fits. Check that these are \
+             measurements of this machine; `abbe doctor` tries more conventions."
+        )
     })
 }
 
@@ -71,7 +59,7 @@ pub(crate) fn check_plausibility(
         Err(_) => return Ok(()),
     };
     let rms = rms.map_or_else(|| Ok(setup.delivered.figures(&data.observations, &[])?.rms), Ok)?;
-    if let Some(statement) = too_large(rms, None, setup) {
+    if let Some(statement) = too_large(rms, setup) {
         notes.warn(&statement);
     }
     Ok(())

@@ -6,6 +6,7 @@ use abbe::identify::{Failure, Measurement, Model, Observation, Unknown, moved_pl
 use abbe::{Component, Pose, rotation_vector};
 use abbe_spec::option::STATION_NEW;
 
+use super::fitted::{fitted_mountings, fitted_targets};
 use super::outliers::shown_lines;
 use super::setup::Setup;
 use abbe_study::number::{digits, length, percent};
@@ -18,6 +19,9 @@ const SHARE: f64 = 0.3;
 
 /// Share of its predicted motion up to which a measured one counts as none.
 const STILL: f64 = 0.01;
+
+/// Share of the arm length from which a place is far from where the map states it.
+const FAR: f64 = 0.03;
 
 /// Root mean square difference of orientations, in radians, up to which they are those of the
 /// nominal machine.
@@ -33,7 +37,26 @@ pub(crate) fn row_notes(
     let still = still(setup, model, x, rows)?;
     // Rows that repeat others move nothing.
     let moved = if still.is_none() { moved(setup, model, x, rows)? } else { None };
-    Ok(still.into_iter().chain(moved).chain(copied_orientations(setup, rows)?).collect())
+    let copied = copied_orientations(setup, rows)?;
+    Ok(still.into_iter().chain(moved).chain(copied).chain(far_from_stated(setup, model, x)).collect())
+}
+
+/// Returns a note on a place on the tool that was found far from where the map states it.
+fn far_from_stated(setup: &Setup, model: &Model, x: &[f64]) -> Option<String> {
+    let found = match setup.pose {
+        true => fitted_mountings(model, x).iter().map(Pose::position).collect(),
+        false => model.mounted(&fitted_targets(model, x)),
+    };
+    let away = |(a, b): ([f64; 3], [f64; 3])| norm([a[0] - b[0], a[1] - b[1], a[2] - b[2]]);
+    let most = found.into_iter().zip(setup.delivered_points()).map(away).fold(0.0, f64::max);
+    (most > FAR * setup.arm && !setup.is_tool_open()).then(|| {
+        format!(
+            "note: {} comes out {} from where the map states it on the tool: does the map have another tool, or \
+             another unit?",
+            if setup.pose { "the measured frame" } else { "a target" },
+            length(most, setup.description.length)
+        )
+    })
 }
 
 /// Returns a note on rows in which the joints differ from those before, but nothing moved.

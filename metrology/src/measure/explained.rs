@@ -1,8 +1,10 @@
 //! Measured errors compared with the prediction by the sources of the spec.
 
 use abbe::Class;
-use abbe::identify::{Chance, EvaluatedModel, Failure, Figures, Model, Observation, Unknown, simulate};
-use nalgebra::Vector3;
+use abbe::identify::{
+    Chance, EvaluatedModel, Failure, Figures, Model, Observation, Unknown, f_beyond, simulate,
+};
+use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use super::errors::{Errors, at_single_target, pose};
@@ -149,13 +151,11 @@ impl<'a> PredictionRegion<'a> {
     }
 }
 
-/// Computes `√(eᵀ C⁻¹ e)`: with the rows a, b, c of C, `det C = a · b × c`, and `C⁻¹` has the
-/// columns b × c, c × a, a × b divided by it.
-fn mahalanobis([a, b, c]: [[f64; 3]; 3], error: [f64; 3]) -> f64 {
-    let [a, b, c, error] = [a, b, c, error].map(Vector3::from);
-    let columns = [b.cross(&c), c.cross(&a), a.cross(&b)];
-    let square = (0..3).map(|i| error[i] * columns[i].dot(&error)).sum::<f64>() / a.dot(&columns[0]);
-    square.max(0.0).sqrt()
+/// Computes `√(eᵀ C⁻¹ e)`.
+fn mahalanobis(covariance: [[f64; 3]; 3], error: [f64; 3]) -> f64 {
+    let error = Vector3::from(error);
+    let scaled = Matrix3::from(covariance).lu().solve(&error);
+    scaled.map_or(f64::INFINITY, |scaled| error.dot(&scaled).max(0.0).sqrt())
 }
 
 /// Returns the 0.5 and 99.5 % quantiles of the share, from the binomial distribution.
@@ -165,21 +165,13 @@ fn likely(rows: usize) -> [f64; 2] {
         let half = 2.5758 * (CONTENT * (1.0 - CONTENT) / n).sqrt();
         return [CONTENT - half, CONTENT + half];
     }
-    // P(k of n), from k = n downwards.
-    let mut probability = CONTENT.powi(rows as i32);
-    let (mut above, mut low, mut high) = (0.0, 0, rows);
-    for k in (0..=rows).rev() {
-        // Upper tail.
-        if above + probability < 0.005 {
-            high = k.saturating_sub(1);
-        }
-        above += probability;
-        if above <= 0.995 {
-            low = k;
-        }
-        probability *= k as f64 / (n - k as f64 + 1.0) * (1.0 - CONTENT) / CONTENT;
-    }
-    [low.saturating_sub(1) as f64 / n.max(1.0), high as f64 / n.max(1.0)]
+    // P(X ≥ k) = I_p(k, n − k + 1), a tail of F with 2 (n − k + 1) and 2 k degrees of freedom.
+    let at_least = |k: f64| {
+        let rest = n - k + 1.0;
+        f_beyond(k * (1.0 - CONTENT) / (rest * CONTENT), 2.0 * rest, 2.0 * k)
+    };
+    let largest = |tail: f64| (1..=rows).rev().map(|k| k as f64).find(|k| at_least(*k) > tail).unwrap_or(0.0);
+    [0.995, 0.005].map(|tail| largest(tail) / n.max(1.0))
 }
 
 #[cfg(test)]

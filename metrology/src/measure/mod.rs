@@ -213,7 +213,8 @@ impl Measure {
             notes,
         );
         let Figures { rms, configurations, standard_error, .. } = evaluated.norms;
-        if let Some(warning) = too_large(rms, fitted, &setup) {
+        // Where base and tool explain them, a note on the rows says so.
+        if let Some(warning) = too_large(fitted.unwrap_or(rms), &setup) {
             notes.warn(&warning);
         }
         let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, repeatable, .. } =
@@ -229,16 +230,14 @@ impl Measure {
         let agreed =
             if repeatable > 0 && !map.is_corrected { judge(Judged::Model, predicted, 0.0) } else { None };
         notes.go_on()?;
-        let residual_test = ResidualTest::new(&setup, map, rows, placed.as_ref())
-            .map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
+        let file = evaluated.data.file.clone();
+        let fail = |failure: identify::Failure| mistake::whole(&file, &failure);
+        let residual_test = ResidualTest::new(&setup, map, rows, placed.as_ref()).map_err(fail)?;
         if !map.states_uncertainty() {
             (evaluated.explained.inside, evaluated.explained.likely) = (None, None);
         }
-        let drift = drift(&setup.real, rows, &[])
-            .map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
-        let of_rows = row_notes(&setup, &setup.real, &[], rows)
-            .map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
-        let file = evaluated.data.file.clone();
+        let drift = drift(&setup.real, rows, &[]).map_err(fail)?;
+        let of_rows = row_notes(&setup, &setup.real, &[], rows).map_err(fail)?;
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),

@@ -76,6 +76,19 @@ pub enum Choice {
     },
 }
 
+impl Choice {
+    /// Evaluates all `sets`, or chooses `count` configurations from them or else from `candidates`.
+    pub fn new(sets: Option<Sets>, count: Option<usize>, criterion: Criterion, candidates: usize) -> Self {
+        match (sets, count) {
+            (Some(sets), None) => Self::Sets(sets),
+            (Some(sets), Some(count)) => Self::Among { sets, criterion, count },
+            (None, count) => {
+                Self::Optimal { criterion, count: count.unwrap_or(options::COUNT.default), candidates }
+            }
+        }
+    }
+}
+
 /// Selected rows by title and sets, and what they determine.
 struct Chosen {
     title: String,

@@ -180,6 +180,16 @@ fn a_motion_of_all_rows_is_noticed() {
 }
 
 #[test]
+fn another_tool_is_named() {
+    let data = simulated(ONE, 4);
+    let elsewhere = [[ONE[0][0] + 213.0, ONE[0][1], ONE[0][2]]];
+    let notes = notes_of_identify(data.clone(), &elsewhere);
+    assert!(note(&notes, "does the map have another tool").contains("comes out 21"), "{notes:?}");
+    let notes = notes_of_measure(data, &elsewhere);
+    assert!(note(&notes, "on the tool than the map states").contains("the target is 21"), "{notes:?}");
+}
+
+#[test]
 fn rows_that_stand_still_are_named() {
     let mut data = simulated(THREE, 3);
     for row in [17, 40] {

@@ -1,9 +1,10 @@
 //! Figures of monitoring: control charts over time.
 
+use abbe::analysis::sampling::range_of;
 use abbe_metrology::monitor::{Chart, Finding, Report};
 use abbe_study::date::Calendar;
 
-use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, ends, with_margin};
+use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, with_margin};
 use crate::unit::angle_in_mrad;
 
 /// Maximum number of charts with a panel of their own.
@@ -38,8 +39,8 @@ pub(crate) fn scenes(report: &Report) -> Vec<Scene> {
 /// Creates a panel over time whose axes contain all marks.
 fn panel(height: f64, name: &str, unit: &str, marks: Vec<Mark<[f64; 2]>>, report: &Report) -> Panel {
     let values = marks.iter().flat_map(|mark| mark.places()).map(|[_, value]| value);
-    let y = Axis::linear(name, unit, with_margin(ends(values), 0.06));
-    let time = with_margin(ends(report.times.iter().copied()), 0.02);
+    let y = Axis::linear(name, unit, with_margin(range_of(values), 0.06));
+    let time = with_margin(range_of(report.times.iter().copied()), 0.02);
     let x = match report.calendar {
         Calendar::Dates => Axis::linear("", "", time).scaled(Scale::Dates),
         Calendar::Days => Axis::linear("day", "", time),
@@ -97,7 +98,7 @@ fn all(report: &Report) -> Scene {
         over_time(shares.iter().map(|share| 100.0 * share), report)
     };
     let others = charts().filter(|chart| Some(chart.name.as_str()) != first).map(percents).collect();
-    let time = ends(report.times.iter().copied());
+    let time = range_of(report.times.iter().copied());
     let limits = [100.0, -100.0].map(|limit| time.map(|at| [at, limit]).to_vec());
     let mut marks = vec![
         Mark::lines(Colour::BAR, 1.0, others).faded(0.5).named("moving averages"),

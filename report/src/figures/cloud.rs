@@ -5,7 +5,7 @@ use abbe_study::analyze::figures::Points;
 use abbe_study::number::{short, trimmed};
 
 use super::{NamedFigure, Quantity};
-use crate::scene::{Axis, Colour, Mark, Panel, Scene};
+use crate::scene::{Axis, Colour, Mark, Panel, Scene, Shape, View};
 
 /// Horizontal and vertical axis of each view.
 const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [2, 1]];
@@ -13,7 +13,8 @@ const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [2, 1]];
 /// Creates the three views of marks in space.
 pub(super) fn views(axes: &[Axis; 3], marks: impl Fn([usize; 2]) -> Vec<Mark<[f64; 2]>>) -> Vec<Panel> {
     let view = |[across, up]: [usize; 2]| {
-        Panel::equal_plane(244.0, axes[across].clone(), axes[up].clone(), marks([across, up]))
+        let (x, y, marks) = (axes[across].clone(), axes[up].clone(), marks([across, up]));
+        Panel::new(244.0, View::Plane { x, y, equal: true, marks })
     };
     VIEWS.map(view).to_vec()
 }
@@ -40,11 +41,11 @@ pub(super) fn scene(points: &Points, figure: &NamedFigure, report: &Report) -> S
         }
         let worst = points.worst.iter().map(|(_, worst)| at(worst.error)).collect::<Vec<_>>();
         if !worst.is_empty() {
-            marks.push(Mark::crosses(Colour::XYZ[0], worst).named("largest error"));
+            marks.push(Mark::new(Colour::XYZ[0], Shape::Crosses { points: worst }).named("largest error"));
         }
         marks
     });
-    let subtitle = format!("{} of {} configurations", points.kept.len(), points.total());
+    let subtitle = format!("{} of {} configurations", points.kept.len(), points.seen);
     Scene { subtitle, ..Scene::new("", 3, panels) }
 }
 

@@ -1,12 +1,13 @@
 //! Figures of compensation: position errors of the tool point before and after.
 
+use abbe::analysis::sampling::range_of;
 use abbe_metrology::compensate::{Report, Row};
 use abbe_spec::Spec;
 use abbe_study::study_file::Over;
 
 use super::histogram::{NamedValues, panel};
 use super::{Quantity, step, thinned};
-use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, ends, with_margin};
+use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, with_margin};
 
 /// Maximum number of dots per panel.
 const DOTS: usize = 3000;
@@ -32,7 +33,7 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
         let quantity = Quantity::over(Over::Variable(joint), spec);
         let at = |row: &Row| row.q.0.get(joint).map_or(0.0, |(_, value)| quantity.show(*value));
         let points: Vec<(f64, &Row)> = shown.iter().map(|(_, row)| (at(row), *row)).collect();
-        let range = ends(points.iter().map(|(x, _)| *x));
+        let range = range_of(points.iter().map(|(x, _)| *x));
         let moves = range[1] - range[0] > 1e-9;
         moves.then(|| distances(&points, quantity.axis(with_margin(range, 0.03)), to_mm))
     };
@@ -65,7 +66,7 @@ fn distances(shown: &[(f64, &Row)], x: Axis, to_mm: f64) -> Panel {
         shown.iter().map(|(x, row)| [*x, (length(row) * to_mm).max(LEAST)]).collect::<Vec<_>>()
     };
     let lists = [(list(|row| row.before.length), BEFORE, 0.6), (list(|row| row.after.length), AFTER, 0.9)];
-    let [least, most] = ends(lists.iter().flat_map(|(places, ..)| places).map(|[_, distance]| *distance));
+    let [least, most] = range_of(lists.iter().flat_map(|(places, ..)| places).map(|[_, distance]| *distance));
     let range = if least <= most { [least / 1.5, most * 1.5] } else { [LEAST, 1.0] };
     let y = Axis::linear("distance", "mm", range).scaled(Scale::Logarithmic);
     let radius = if shown.len() < 1000 { 2.0 } else { 1.5 };

@@ -6,11 +6,12 @@
 #[cfg(test)]
 mod tests;
 
+use abbe::analysis::sampling::range_of;
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Histogram;
 
 use super::NamedFigure;
-use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends, with_margin};
+use crate::scene::{Axis, Colour, Mark, Panel, Scene, with_margin};
 
 /// Height of a panel, in pixels.
 const HEIGHT: f64 = 190.0;
@@ -32,7 +33,7 @@ pub(super) fn scene(histogram: &Histogram, figure: &NamedFigure, report: &Report
             [[from, 0.0], [to, count.0 as f64]]
         };
         let bars = bins.iter().map(bar).collect::<Vec<_>>();
-        let range = with_margin(ends(bars.iter().flatten().map(|corner| corner[0])), 0.04);
+        let range = with_margin(range_of(bars.iter().flatten().map(|corner| corner[0])), 0.04);
         let y = Axis::linear("configurations", "", [0.0, 1.05 * most]);
         Panel::plane(HEIGHT, errors.named(name).axis(range), y, vec![Mark::bars(colour, bars).faded(0.8)])
     });

@@ -1,9 +1,10 @@
 //! Manipulator as a stick figure with its frames, at home.
 
+use abbe::analysis::sampling::range_of;
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Stick;
 
-use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends};
+use crate::scene::{Axis, Colour, Mark, Panel, Scene, Shape, View};
 
 /// Length of the axes of a frame, and smallest side of the box, as fractions of its longest side.
 const AXIS: f64 = 0.11;
@@ -27,13 +28,14 @@ pub(super) fn scene(stick: &Stick, up: usize, report: &Report) -> Scene {
         marks.push(Mark::lines(Colour::XYZ[axis], 2.2, arrows).named(format!("{name} axes of the frames")));
     }
     marks.push(Mark::points(Colour::INK, 4.0, points));
-    marks.push(Mark::texts(origins.iter().map(|place| (place.origin, place.label.clone())).collect()));
+    let texts = origins.iter().map(|place| (place.origin, place.label.clone())).collect();
+    marks.push(Mark::new(Colour::INK, Shape::Texts { texts }));
     let axes = [0, 1, 2].map(|axis| {
-        let [least, most] = ends(tips.iter().map(|tip| tip[axis]));
+        let [least, most] = range_of(tips.iter().map(|tip| tip[axis]));
         let room = (0.06 * size).max((LEAST * size - (most - least)) / 2.0);
         Axis::linear(["x", "y", "z"][axis], report.spec.length.symbol(), [least - room, most + room])
     });
-    let panels = vec![Panel::equal_space(560.0, axes, up, marks)];
+    let panels = vec![Panel::new(560.0, View::Space { axes, up, equal: true, marks })];
     let subtitle = "Links are straight lines between origins".to_owned();
     Scene { subtitle, ..Scene::new("", 1, panels) }
 }

@@ -1,5 +1,6 @@
 //! Figures of a measurement: error cloud and histograms, as in Figures 13 and 14 of the paper.
 
+use abbe::analysis::sampling::range_of;
 use abbe_metrology::measure::Report;
 use abbe_spec::Spec;
 
@@ -7,7 +8,7 @@ use super::cloud::views;
 use super::histogram::{COLOURS, FigureRange, NamedValues, panel};
 use super::residuals::{self, ErrorNames, Residual};
 use super::{norm, step};
-use crate::scene::{Axis, Colour, Mark, Scene, ends, with_margin};
+use crate::scene::{Axis, Colour, Mark, Scene, with_margin};
 
 /// Maximum number of points.
 const MOST: usize = 5000;
@@ -57,7 +58,7 @@ fn cloud(errors: &[[f64; 3]]) -> Scene {
     let shown = errors.iter().filter(|error| reach.contains(norm(**error))).step_by(step(errors.len(), MOST));
     let shown = shown.collect::<Vec<_>>();
     let axes = [0, 1, 2].map(|axis| {
-        let range = with_margin(ends(shown.iter().map(|error| error[axis])), 0.05);
+        let range = with_margin(range_of(shown.iter().map(|error| error[axis])), 0.05);
         Axis::linear(["x error", "y error", "z error"][axis], "mm", range)
     });
     let radius = if shown.len() < 300 { 2.2 } else { 1.6 };

@@ -4,7 +4,7 @@ use abbe_study::analyze::Report;
 use abbe_study::number::trimmed;
 
 use super::NamedFigure;
-use crate::scene::{Axis, Colour, Mark, Panel, Scene};
+use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene};
 
 /// Maximum number of bars.
 const MOST: usize = 12;
@@ -23,7 +23,8 @@ pub(super) fn scene(figure: &NamedFigure, report: &Report) -> Scene {
     }
     let unit = figure.errors(report).unit;
     let names = errors.iter().map(|(name, error)| format!("{name}\n{} {unit}", trimmed(*error, 3)));
-    let x = Axis::names(names.collect(), [-0.8, errors.len().max(1) as f64 - 0.4]);
+    let range = [-0.8, errors.len().max(1) as f64 - 0.4];
+    let x = Axis::linear("", "", range).scaled(Scale::Names(names.collect()));
     let marks = vec![
         Mark::bars(Colour::BAR, bars).named("share of the sum of the largest errors"),
         Mark::line(Colour::XYZ[0], 1.8, curve.clone()).named("cumulative share"),

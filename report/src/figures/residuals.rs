@@ -1,13 +1,14 @@
 //! Figures of residuals of measured points: vectors in space, over rows, over each joint, and
 //! histograms.
 
+use abbe::analysis::sampling::range_of;
 use abbe_spec::Spec;
 use abbe_study::number::short;
 use abbe_study::study_file::Over;
 
 use super::histogram::{COLOURS, FigureRange, NamedValues, panel};
 use super::{Quantity, norm, step, thinned};
-use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends, with_margin};
+use crate::scene::{Axis, Colour, Mark, Panel, Scene, View, with_margin};
 
 /// Maximum number of vectors, of dots over rows, and of dots over a joint.
 const VECTORS: usize = 400;
@@ -57,7 +58,7 @@ impl Residuals<'_> {
     fn vectors(&self) -> Scene {
         let every = step(self.residuals.len(), VECTORS);
         let shown: Vec<&Residual> = self.residuals.iter().step_by(every).collect();
-        let axes = [0, 1, 2].map(|axis| ends(shown.iter().map(|residual| residual.point[axis])));
+        let axes = [0, 1, 2].map(|axis| range_of(shown.iter().map(|residual| residual.point[axis])));
         let diagonal = norm(axes.map(|[least, most]| (most - least).max(0.0)));
         // The 95 % quantile of the lengths becomes a tenth of the diagonal.
         let scale = |error: &dyn Fn(&Residual) -> [f64; 3]| {
@@ -105,7 +106,7 @@ impl Residuals<'_> {
         let lines = drawn.collect::<Vec<Vec<[f64; 3]>>>();
         let unit = self.spec.length.symbol();
         let spans =
-            [0, 1, 2].map(|axis| with_margin(ends(lines.iter().flatten().map(|end| end[axis])), 0.03));
+            [0, 1, 2].map(|axis| with_margin(range_of(lines.iter().flatten().map(|end| end[axis])), 0.03));
         let longest = spans.iter().map(|[least, most]| most - least).fold(0.0, f64::max);
         let axes = ["x", "y", "z"].map(|name| Axis::linear(name, unit, [0.0; 2]));
         let mut spans = spans.into_iter();
@@ -118,7 +119,8 @@ impl Residuals<'_> {
             Mark::lines(colour, 1.1, lines),
             Mark::points(Colour::INK, 1.0, shown.iter().map(from).collect()),
         ];
-        Panel::equal_space(if self.names.before.is_empty() { 500.0 } else { 270.0 }, axes, 2, marks)
+        let height = if self.names.before.is_empty() { 500.0 } else { 270.0 };
+        Panel::new(height, View::Space { axes, up: 2, equal: true, marks })
     }
 
     fn over_rows(&self) -> Scene {
@@ -136,7 +138,7 @@ impl Residuals<'_> {
         let panel = |joint: usize| {
             let quantity = Quantity::over(Over::Variable(joint), self.spec);
             let at = |residual: &Residual| quantity.show(residual.q[joint]);
-            let range = ends(self.residuals.iter().map(at));
+            let range = range_of(self.residuals.iter().map(at));
             let shown = self.residuals.iter().step_by(every).map(|residual| (at(residual), residual));
             let moves = range[1] - range[0] > 1e-9;
             moves.then(|| self.dots(&shown.collect::<Vec<_>>(), quantity.axis(with_margin(range, 0.03))))

@@ -1,12 +1,13 @@
 //! Error with the largest magnitude over two variables: one surface per axis.
 
+use abbe::analysis::sampling::range_of;
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::{Mesh, Range};
 use abbe_study::number::trimmed;
 use abbe_study::study_file::Over;
 
 use super::{NamedFigure, Quantity};
-use crate::scene::{Corner, Mark, Panel, Scene, View, ends, with_margin};
+use crate::scene::{Corner, Mark, Panel, Scene, View, with_margin};
 
 pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &NamedFigure, report: &Report) -> Scene {
     let [first, second] = over.map(|over| Quantity::over(over, &report.spec));
@@ -21,10 +22,10 @@ pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &NamedFigure, report: 
         });
         let corners = lines.collect::<Vec<_>>();
         let values = corners.iter().flatten().flatten().map(|corner| corner.value);
-        let range = with_margin(ends(values.chain([0.0])), 0.0);
+        let range = with_margin(range_of(values.chain([0.0])), 0.0);
         let axes = [
-            first.axis(with_margin(ends(mesh.first.iter().map(|value| first.show(*value))), 0.0)),
-            second.axis(with_margin(ends(mesh.second.iter().map(|value| second.show(*value))), 0.0)),
+            first.axis(with_margin(range_of(mesh.first.iter().map(|value| first.show(*value))), 0.0)),
+            second.axis(with_margin(range_of(mesh.second.iter().map(|value| second.show(*value))), 0.0)),
             errors.axis(range),
         ];
         let view = View::Space { axes, up: 2, equal: false, marks: vec![Mark::surface(corners, range)] };

@@ -5,7 +5,7 @@ use abbe_study::analyze::figures::{Envelope, Range};
 use abbe_study::study_file::Over;
 
 use super::{NamedFigure, Quantity};
-use crate::scene::{Colour, Mark, Panel, Scene, with_margin};
+use crate::scene::{Axis, Colour, Mark, Panel, Scene, Shape, with_margin};
 
 pub(super) fn scene(envelope: &Envelope, over: Over, figure: &NamedFigure, report: &Report) -> Scene {
     let travel = Quantity::over(over, &report.spec);
@@ -31,7 +31,7 @@ pub(super) fn scene(envelope: &Envelope, over: Over, figure: &NamedFigure, repor
         let (lower, upper) = (edge(|range| range.least), edge(|range| range.largest));
         let colour = Colour::XYZ[axis];
         let mut marks = vec![
-            Mark::band(colour, lower.clone(), upper.clone()).faded(0.22),
+            Mark::new(colour, Shape::Band { lower: lower.clone(), upper: upper.clone() }).faded(0.22),
             Mark::lines(colour, 1.6, vec![lower, upper]),
         ];
         let mut published = String::new();
@@ -42,8 +42,7 @@ pub(super) fn scene(envelope: &Envelope, over: Over, figure: &NamedFigure, repor
             published = format!("dashed: {}", printed.label);
         }
         let y = errors.named(format!("{} {}", figure.rows(report)[axis], figure.what())).axis(range);
-        let x = travel.axis(across);
-        let x = if axis == 2 { x } else { x.without_numbers() };
+        let x = Axis { numbered: axis == 2, ..travel.axis(across) };
         Panel { published, ..Panel::plane(150.0, x, y, marks) }
     });
     let subtitle =

@@ -179,25 +179,32 @@ impl Provenance {
 
     /// Formats the sections of record, options and files. A page with a verdict is signed.
     pub(super) fn sections(&self, record: &RunRecord, is_signed: bool) -> String {
-        sections(record, is_signed, self.files.iter().map(|(kind, name, hash)| (*kind, name, hash)))
+        let stated = record.stated().map(|(title, text)| (title, escaped(text)));
+        let signature = if is_signed { SIGNATURE } else { "" };
+        let stated = match record.is_empty() {
+            true if is_signed => format!("<section>\n{signature}</section>\n"),
+            true => String::new(),
+            false => section("Record", &(facts("Stated by the user", stated) + signature)),
+        };
+        stated + &section("Input files and options", &(self.table() + &options(record)))
     }
-}
 
-/// Formats the stated entries of a record, with lines to sign below them, and the input files and
-/// options of its run.
-pub(super) fn sections<'f>(
-    record: &RunRecord,
-    is_signed: bool,
-    files: impl Iterator<Item = (&'static str, &'f String, &'f String)>,
-) -> String {
-    let stated = record.stated().map(|(title, text)| (title, escaped(text)));
-    let signature = if is_signed { SIGNATURE } else { "" };
-    let stated = match record.is_empty() {
-        true if is_signed => format!("<section>\n{signature}</section>\n"),
-        true => String::new(),
-        false => section("Record", &(facts("Stated by the user", stated) + signature)),
-    };
-    stated + &section("Input files and options", &(table(files) + &options(record)))
+    /// Formats the kind, the name and the SHA-256 of input files, and the version of abbe.
+    fn table(&self) -> String {
+        let rows = self.files.iter().map(|(kind, name, hash)| {
+            let name = escaped(name);
+            format!(
+                "<tr>{}<td class=\"words\">{name}</td><td class=\"words\"><code>{hash}</code></td></tr>\n",
+                row_header(kind)
+            )
+        });
+        let body = format!("<tbody>{}</tbody>\n", rows.collect::<String>());
+        format!(
+            "{}<p>Written by abbe {}. The same files and options give the same bytes.</p>\n",
+            ledger("Input files of this report", &["input", "file", "SHA-256"], &[0, 1, 2], &body),
+            version()
+        )
+    }
 }
 
 /// Lines for name, date and signature, which are on paper alone.
@@ -211,21 +218,4 @@ fn options(record: &RunRecord) -> String {
         [] => "<p>No options were given.</p>\n".to_owned(),
         options => facts("Options of the run, defaults included", options.iter().map(named)),
     }
-}
-
-/// Formats the kind, the name and the SHA-256 of input files, and the version of abbe.
-fn table<'f>(files: impl Iterator<Item = (&'static str, &'f String, &'f String)>) -> String {
-    let rows = files.map(|(kind, name, hash)| {
-        let name = escaped(name);
-        format!(
-            "<tr>{}<td class=\"words\">{name}</td><td class=\"words\"><code>{hash}</code></td></tr>\n",
-            row_header(kind)
-        )
-    });
-    let body = format!("<tbody>{}</tbody>\n", rows.collect::<String>());
-    format!(
-        "{}<p>Written by abbe {}. The same files and options give the same bytes.</p>\n",
-        ledger("Input files of this report", &["input", "file", "SHA-256"], &[0, 1, 2], &body),
-        version()
-    )
 }

@@ -38,19 +38,9 @@ impl Axis {
         Self { name: name.into(), unit: unit.into(), range, scale: Scale::Linear, numbered: true }
     }
 
-    /// Creates an axis of names at 0, 1, 2, ….
-    pub(crate) fn names(names: Vec<String>, range: [f64; 2]) -> Self {
-        Self { scale: Scale::Names(names), ..Self::linear("", "", range) }
-    }
-
     /// Changes the scale.
     pub(crate) fn scaled(self, scale: Scale) -> Self {
         Self { scale, ..self }
-    }
-
-    /// Hides the tick labels.
-    pub(crate) fn without_numbers(self) -> Self {
-        Self { numbered: false, ..self }
     }
 
     /// Formats name and unit: `d1 (mm)`.
@@ -98,10 +88,4 @@ pub(crate) fn with_margin([least, largest]: [f64; 2], share: f64) -> [f64; 2] {
         least.abs() * share.max(1e-3)
     };
     [least - room, largest + room]
-}
-
-/// Returns the smallest and the largest value.
-pub(crate) fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
-    let ends = [f64::INFINITY, f64::NEG_INFINITY];
-    values.into_iter().fold(ends, |[least, largest], value| [least.min(value), largest.max(value)])
 }

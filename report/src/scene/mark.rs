@@ -79,7 +79,8 @@ pub struct Corner<P> {
 }
 
 impl<P: Copy> Mark<P> {
-    fn new(colour: Colour, shape: Shape<P>) -> Self {
+    /// Creates marks without a name.
+    pub(crate) fn new(colour: Colour, shape: Shape<P>) -> Self {
         Self { name: String::new(), colour, opacity: 1.0, shape }
     }
 
@@ -103,16 +104,6 @@ impl<P: Copy> Mark<P> {
         Self::new(colour, Shape::Points { points, radius })
     }
 
-    /// Creates crosses.
-    pub(crate) fn crosses(colour: Colour, points: Vec<P>) -> Self {
-        Self::new(colour, Shape::Crosses { points })
-    }
-
-    /// Creates the area between two lines.
-    pub(crate) fn band(colour: Colour, lower: Vec<P>, upper: Vec<P>) -> Self {
-        Self::new(colour, Shape::Band { lower, upper })
-    }
-
     /// Creates rectangles.
     pub(crate) fn bars(colour: Colour, bars: Vec<[P; 2]>) -> Self {
         Self::new(colour, Shape::Bars { bars })
@@ -121,11 +112,6 @@ impl<P: Copy> Mark<P> {
     /// Creates a surface.
     pub(crate) fn surface(corners: Vec<Vec<Option<Corner<P>>>>, range: [f64; 2]) -> Self {
         Self::new(Colour::INK, Shape::Surface { corners, range })
-    }
-
-    /// Creates labels.
-    pub(crate) fn texts(texts: Vec<(P, String)>) -> Self {
-        Self::new(Colour::INK, Shape::Texts { texts })
     }
 
     /// Sets the name.

@@ -7,8 +7,8 @@
 mod axis;
 mod mark;
 
+pub(crate) use axis::with_margin;
 pub use axis::{Axis, Scale};
-pub(crate) use axis::{ends, with_margin};
 pub use mark::{Corner, Mark, Shape};
 
 use serde::{Serialize, Serializer};
@@ -75,22 +75,14 @@ pub enum View {
 }
 
 impl Panel {
+    /// Creates a panel without a title.
+    pub(crate) fn new(height: f64, view: View) -> Self {
+        Self { title: String::new(), published: String::new(), height, view }
+    }
+
     /// Creates a panel with two axes.
     pub(crate) fn plane(height: f64, x: Axis, y: Axis, marks: Vec<Mark<[f64; 2]>>) -> Self {
-        let view = View::Plane { x, y, equal: false, marks };
-        Self { title: String::new(), published: String::new(), height, view }
-    }
-
-    /// Creates a panel with two axes of the same scale.
-    pub(crate) fn equal_plane(height: f64, x: Axis, y: Axis, marks: Vec<Mark<[f64; 2]>>) -> Self {
-        let view = View::Plane { x, y, equal: true, marks };
-        Self { title: String::new(), published: String::new(), height, view }
-    }
-
-    /// Creates a panel with three axes of the same scale.
-    pub(crate) fn equal_space(height: f64, axes: [Axis; 3], up: usize, marks: Vec<Mark<[f64; 3]>>) -> Self {
-        let view = View::Space { axes, up, equal: true, marks };
-        Self { title: String::new(), published: String::new(), height, view }
+        Self::new(height, View::Plane { x, y, equal: false, marks })
     }
 
     /// Sets the title.

@@ -1,7 +1,7 @@
 //! Tests of `svg`.
 
 use super::{embedded, file};
-use crate::scene::{Axis, Colour, Corner, Mark, Panel, Scene};
+use crate::scene::{Axis, Colour, Corner, Mark, Panel, Scene, View};
 
 fn axis(name: &str, range: [f64; 2]) -> Axis {
     Axis::linear(name, "mm", range)
@@ -38,7 +38,10 @@ fn a_figure_is_told_to_those_who_cannot_see_it() {
 fn equal_axes_have_one_scale() {
     let square = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let marks = vec![Mark::line(Colour::BAR, 1.0, square)];
-    let panel = Panel::equal_plane(90.0, axis("x", [-1.0, 1.0]), axis("y", [-1.0, 1.0]), marks);
+    let panel = Panel::new(
+        90.0,
+        View::Plane { x: axis("x", [-1.0, 1.0]), y: axis("y", [-1.0, 1.0]), equal: true, marks },
+    );
     let svg = embedded(&Scene::new("", 1, vec![panel]));
     let [a, b, c, _] = places(&svg, Colour::BAR)[..] else { panic!("{svg}") };
     assert!((b[0] - a[0] - 90.0).abs() < 0.2 && (b[1] - c[1] - 90.0).abs() < 0.2, "{a:?} {b:?} {c:?}");
@@ -52,7 +55,11 @@ fn axes_in_space_are_right_handed() {
     let lines = ends.map(|end| vec![[0.0; 3], end]).to_vec();
     let corners = vec![vec![Some(Corner { at: [0.0; 3], value: 0.0 }); 2]; 2];
     let marks = vec![Mark::surface(corners, [0.0, 1.0]), Mark::lines(Colour::BAR, 1.0, lines)];
-    let svg = embedded(&Scene::new("", 1, vec![Panel::equal_space(300.0, axes, 2, marks)]));
+    let svg = embedded(&Scene::new(
+        "",
+        1,
+        vec![Panel::new(300.0, View::Space { axes, up: 2, equal: true, marks })],
+    ));
     let [from, x, _, y, _, z] = places(&svg, Colour::BAR)[..] else { panic!("{svg}") };
     assert!(x[0] < from[0] && x[1] > from[1], "{x:?}");
     assert!(y[0] > from[0] && y[1] > from[1], "{y:?}");

@@ -65,11 +65,8 @@ pub fn jacobian(report: &Report) -> String {
 }
 
 fn matrix(pose: &[[f64; 4]; 4]) -> String {
-    let row = |row: &[f64; 4]| {
-        let cells = row.map(|entry| format!("{:>14}", number::fixed(entry, 6)));
-        cells.concat() + "\n"
-    };
-    pose.iter().map(row).collect()
+    let cell = |entry| format!("{:>14}", number::fixed(entry, 6));
+    pose.iter().map(|row| row.map(cell).concat() + "\n").collect()
 }
 
 fn cells(name: &str, values: &[f64]) -> Vec<String> {

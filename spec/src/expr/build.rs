@@ -10,29 +10,15 @@ use crate::diagnostic::{Diagnostic, Span, first, nearest_after};
 
 /// Terms under construction. Semantic errors are recorded in `found` and do not stop construction.
 pub(super) struct Builder<'b> {
-    scope: &'b Scope,
-    found: &'b mut Vec<Diagnostic>,
-    terms: Vec<Term>,
+    pub(super) scope: &'b Scope,
+    pub(super) found: &'b mut Vec<Diagnostic>,
+    pub(super) terms: Vec<Term>,
     allowed: Allowed,
 }
 
 impl<'b> Builder<'b> {
     pub(super) fn new(scope: &'b Scope, found: &'b mut Vec<Diagnostic>) -> Self {
         Self { scope, found, terms: Vec::new(), allowed: Allowed::Nothing }
-    }
-
-    pub(super) fn scope(&self) -> &'b Scope {
-        self.scope
-    }
-
-    /// Returns the number of mistakes so far.
-    pub(super) fn mistakes(&self) -> usize {
-        self.found.len()
-    }
-
-    /// Returns the number of terms.
-    pub(super) fn len(&self) -> usize {
-        self.terms.len()
     }
 
     /// Starts an entry that may use the given names.
@@ -96,7 +82,7 @@ impl<'b> Builder<'b> {
                 Diagnostic::new(span, format!("expected a number, found `{name}`"))
                     .help("names cannot be used here")
             } else {
-                unknown(name, span, self.scope, self.mistakes())
+                unknown(name, span, self.scope, self.found.len())
             };
             return Err(mistake);
         };
@@ -194,13 +180,7 @@ impl<'b> Builder<'b> {
         let value = self.both(left, right).map(|(l, r)| operator.evaluate(l, r));
         if operator == Binary::Div && self.terms[right].value == Some(0.0) {
             self.mistake(right, "division by zero".to_owned(), "divide by a nonzero value");
-            return self.push(Term {
-                kind: Kind::Binary(operator, left, right),
-                dimension: None,
-                value: None,
-                span,
-                bare: false,
-            });
+            return self.push_folded(Kind::Binary(operator, left, right), None, None, span);
         }
         self.push_folded(Kind::Binary(operator, left, right), dimension, value, span)
     }

@@ -41,37 +41,28 @@ impl Expression {
     /// Raises to a power.
     pub fn power(self, exponent: f64) -> Self {
         let dimension = self.whole().dimension.and_then(|dimension| dimension.power(exponent));
-        let value = self.constant().map(|value| value.powf(exponent));
-        self.combined(Binary::Pow, Self::from_number(exponent, Dimension::NONE), dimension, value)
+        self.combined(Binary::Pow, Self::from_number(exponent, Dimension::NONE), dimension)
     }
 
     /// Holds the value at the ends of a range outside of it.
     pub fn clamped(self, [least, most]: [f64; 2]) -> Self {
         let dimension = self.whole().dimension;
         let end = |end| Self::from_number(end, dimension.unwrap_or(Dimension::NONE));
-        self.combined(Binary::Max, end(least), dimension, None).combined(
-            Binary::Min,
-            end(most),
-            dimension,
-            None,
-        )
+        self.combined(Binary::Max, end(least), dimension).combined(Binary::Min, end(most), dimension)
     }
 
-    fn combined(self, binary: Binary, right: Self, dimension: Option<Dimension>, value: Option<f64>) -> Self {
+    fn combined(self, binary: Binary, right: Self, dimension: Option<Dimension>) -> Self {
+        let value = self.constant().zip(right.constant()).map(|(l, r)| binary.evaluate(l, r));
         let left = self.terms().len();
         let place = left + right.terms().len();
-        let mut terms = self.into_terms();
-        terms.extend(
-            right
-                .into_terms()
-                .into_iter()
-                .map(|term| Term { kind: term.kind.map(|operand| operand + left), ..term }),
-        );
+        let mut terms = self.terms;
+        let moved = |term: Term| Term { kind: term.kind.map(|operand| operand + left), ..term };
+        terms.extend(right.terms.into_iter().map(moved));
         Self::new(terms).with(Kind::Binary(binary, left - 1, place - 1), dimension, value)
     }
 
     fn with(self, kind: Kind, dimension: Option<Dimension>, value: Option<f64>) -> Self {
-        let mut terms = self.into_terms();
+        let mut terms = self.terms;
         terms.push(Term { kind, dimension, value, span: 0..0, bare: false });
         Self::new(terms)
     }
@@ -83,8 +74,7 @@ impl Add for Expression {
     /// Adds an expression of the same dimension.
     fn add(self, right: Self) -> Self {
         let dimension = self.whole().dimension;
-        let value = self.constant().zip(right.constant()).map(|(l, r)| l + r);
-        self.combined(Binary::Add, right, dimension, value)
+        self.combined(Binary::Add, right, dimension)
     }
 }
 
@@ -93,8 +83,7 @@ impl Mul for Expression {
 
     fn mul(self, right: Self) -> Self {
         let dimension = self.whole().dimension.zip(right.whole().dimension).and_then(|(l, r)| l.times(r));
-        let value = self.constant().zip(right.constant()).map(|(l, r)| l * r);
-        self.combined(Binary::Mul, right, dimension, value)
+        self.combined(Binary::Mul, right, dimension)
     }
 }
 
@@ -103,7 +92,6 @@ impl Div for Expression {
 
     fn div(self, right: Self) -> Self {
         let dimension = self.whole().dimension.zip(right.whole().dimension).and_then(|(l, r)| l.over(r));
-        let value = self.constant().zip(right.constant()).map(|(l, r)| l / r);
-        self.combined(Binary::Div, right, dimension, value)
+        self.combined(Binary::Div, right, dimension)
     }
 }

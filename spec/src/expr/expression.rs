@@ -104,7 +104,7 @@ pub struct Term {
 /// It is a list instead of a tree, so that deep nesting cannot overflow the stack.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    terms: Vec<Term>,
+    pub(super) terms: Vec<Term>,
 }
 
 impl Expression {
@@ -137,10 +137,6 @@ impl Expression {
     /// Returns the terms, operands first, the whole last.
     pub fn terms(&self) -> &[Term] {
         &self.terms
-    }
-
-    pub(super) fn into_terms(self) -> Vec<Term> {
-        self.terms
     }
 
     /// Returns the last term, which is the whole expression.

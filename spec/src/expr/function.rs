@@ -46,20 +46,9 @@ impl Function {
 
     /// Returns the name in spec files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Sin => "sin",
-            Self::Cos => "cos",
-            Self::Tan => "tan",
-            Self::Asin => "asin",
-            Self::Acos => "acos",
-            Self::Atan => "atan",
-            Self::Sqrt => "sqrt",
-            Self::Abs => "abs",
-            Self::Exp => "exp",
-            Self::Log => "log",
-            Self::Sign => "sign",
-            Self::Side => "side",
-        }
+        const NAMES: [&str; 12] =
+            ["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "abs", "exp", "log", "sign", "side"];
+        NAMES[self as usize]
     }
 
     /// Returns the value of the function.

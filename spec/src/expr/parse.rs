@@ -27,14 +27,25 @@ pub(crate) fn parse_expression(
     entry: Entry<'_>,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Expression> {
-    let before = found.len();
-    let expression = Parser::new(text, place, scope, found).and_then(|mut parser| {
+    parsed(text, place, scope, found, |parser| {
         let expression = parser.entry(entry)?;
         parser.expect_end()?;
         Ok(expression)
-    });
-    match expression {
-        Ok(expression) => (found.len() == before).then_some(expression),
+    })
+}
+
+/// Parses a text. Mistakes are recorded in `found`, and the result is then `None`.
+pub(super) fn parsed<T>(
+    text: &str,
+    place: &TextLocation,
+    scope: &Scope,
+    found: &mut Vec<Diagnostic>,
+    parse: impl FnOnce(&mut Parser<'_>) -> Parsed<T>,
+) -> Option<T> {
+    let before = found.len();
+    let result = Parser::new(text, place, scope, found).and_then(|mut parser| parse(&mut parser));
+    match result {
+        Ok(result) => (found.len() == before).then_some(result),
         Err(diagnostic) => {
             found.push(diagnostic);
             None
@@ -63,7 +74,7 @@ pub(crate) fn parse_unit(
 }
 
 /// Position in the tokens of a text, and the terms of the expression being parsed.
-pub(crate) struct Parser<'p> {
+pub(super) struct Parser<'p> {
     tokens: Vec<(Token<'p>, Span)>,
     at: usize,
     depth: usize,
@@ -71,7 +82,7 @@ pub(crate) struct Parser<'p> {
     builder: Builder<'p>,
 }
 
-type Parsed<T> = Result<T, Diagnostic>;
+pub(super) type Parsed<T> = Result<T, Diagnostic>;
 
 impl<'p> Parser<'p> {
     pub(crate) fn new(
@@ -156,31 +167,25 @@ impl<'p> Parser<'p> {
     }
 
     fn sum(&mut self) -> Parsed<usize> {
-        let mut left = self.product()?;
-        loop {
-            let operator = match self.peek() {
-                Token::Sign('+') => Binary::Add,
-                Token::Sign('-') => Binary::Sub,
-                _ => return Ok(left),
-            };
-            self.advance();
-            let right = self.product()?;
-            left = self.builder.binary(operator, left, right);
-        }
+        self.left_to_right([('+', Binary::Add), ('-', Binary::Sub)], Self::product)
     }
 
     fn product(&mut self) -> Parsed<usize> {
-        let mut left = self.signed()?;
-        loop {
-            let operator = match self.peek() {
-                Token::Sign('*') => Binary::Mul,
-                Token::Sign('/') => Binary::Div,
-                _ => return Ok(left),
-            };
-            self.advance();
-            let right = self.signed()?;
+        self.left_to_right([('*', Binary::Mul), ('/', Binary::Div)], Self::signed)
+    }
+
+    /// Parses operands with operators of the same precedence between them.
+    fn left_to_right(
+        &mut self,
+        operators: [(char, Binary); 2],
+        operand: fn(&mut Self) -> Parsed<usize>,
+    ) -> Parsed<usize> {
+        let mut left = operand(self)?;
+        while let Some((_, operator)) = operators.into_iter().find(|(sign, _)| self.accept(*sign)) {
+            let right = operand(self)?;
             left = self.builder.binary(operator, left, right);
         }
+        Ok(left)
     }
 
     fn signed(&mut self) -> Parsed<usize> {
@@ -242,15 +247,15 @@ impl<'p> Parser<'p> {
             _ => None,
         };
         let function = Function::named(word);
-        let is_table = self.builder.scope().table(word).is_some();
+        let is_table = self.builder.scope.table(word).is_some();
         if two.is_none() && function.is_none() && !is_table {
-            let tables = self.builder.scope().tables.iter().map(|table| table.name.as_str());
+            let tables = self.builder.scope.tables.iter().map(|table| table.name.as_str());
             let known: Vec<&str> = FUNCTION_NAMES.into_iter().chain(tables).collect();
-            let help = suggestion(self.builder.mistakes(), word, &known, "functions");
+            let help = suggestion(self.builder.found.len(), word, &known, "functions");
             return Err(Diagnostic::new(start, format!("unknown function `{word}`")).help(help));
         }
         self.expect('(')?;
-        let begin = self.builder.len();
+        let begin = self.builder.terms.len();
         let first = self.nested(Self::sum)?;
         let mut whole = first;
         if let Some(operator) = two {
@@ -274,7 +279,7 @@ impl<'p> Parser<'p> {
 
     /// Returns `true` if a word after a number is known, so that an operator is missing.
     fn is_known(&self, word: &str) -> bool {
-        let scope = self.builder.scope();
+        let scope = self.builder.scope;
         let is_name = scope.names.contains_key(word) || scope.table(word).is_some() || word == "pi";
         is_name || FUNCTION_NAMES.contains(&word) || Unit::named(word).is_some()
     }

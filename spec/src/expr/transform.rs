@@ -2,7 +2,7 @@
 
 use abbe_core::Component;
 
-use super::parse::Parser;
+use super::parse::{Parsed, Parser, parsed};
 use super::scope::Allowed;
 use super::tokens::Token;
 use super::{Dimension, Entry, Expression, Scope, TextLocation};
@@ -44,25 +44,17 @@ pub(crate) fn parse_transform(
     scope: &Scope,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Vec<Elementary>> {
-    let before = found.len();
-    let factors = Parser::new(text, place, scope, found).and_then(|mut parser| {
+    parsed(text, place, scope, found, |parser| {
         let mut factors = Vec::new();
         while parser.peek() != Token::End {
-            factors.push(factor(&mut parser)?);
+            factors.push(factor(parser)?);
             parser.accept('*');
         }
         Ok(factors)
-    });
-    match factors {
-        Ok(factors) => (found.len() == before).then_some(factors),
-        Err(diagnostic) => {
-            found.push(diagnostic);
-            None
-        }
-    }
+    })
 }
 
-fn factor(parser: &mut Parser<'_>) -> Result<Elementary, Diagnostic> {
+fn factor(parser: &mut Parser<'_>) -> Parsed<Elementary> {
     let expected = "Tx, Ty, Tz, Rx, Ry or Rz";
     let Token::Word(name) = parser.peek() else {
         return Err(parser.unexpected(expected));

@@ -130,12 +130,7 @@ impl DhNumber {
 
     /// Returns its key in a spec.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Theta => "theta",
-            Self::D => "d",
-            Self::A => "a",
-            Self::Alpha => "alpha",
-        }
+        ["theta", "d", "a", "alpha"][self as usize]
     }
 
     /// Returns its motion and axis: 0 = x, 1 = y, 2 = z.
@@ -161,10 +156,7 @@ pub enum DhConvention {
 impl DhConvention {
     /// Returns its name in options and tables.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Standard => "standard",
-            Self::Modified => "modified",
-        }
+        ["standard", "modified"][self as usize]
     }
 
     /// Returns the numbers in the order of the frame's factors.

@@ -48,17 +48,18 @@ pub fn check_name(path: impl Display, name: &str) -> Result<(), Diagnostics> {
 pub(super) fn read_title(
     section: &mut Section<'_>,
     kind: &str,
-    first: impl FnOnce(&str) -> Option<Span>,
+    known: &mut Vec<(String, Span)>,
     help: &str,
 ) -> Option<String> {
     let item = section.required("name")?;
     let name = title_of(&item)?;
     section.name = format!("the {kind} \"{name}\"");
     section.span = item.span();
-    if let Some(first) = first(&name) {
+    if let Some((_, first)) = known.iter().find(|(other, _)| *other == name) {
         let mistake = Diagnostic::new(item.span(), format!("duplicate {kind} name \"{name}\""));
-        section.document.mistake(mistake.label("second use").context(first, "first use").help(help));
+        section.document.mistake(mistake.label("second use").context(first.clone(), "first use").help(help));
     }
+    known.push((name.clone(), item.span()));
     Some(name)
 }
 

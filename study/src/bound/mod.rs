@@ -25,7 +25,7 @@ use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::study_file::Study;
 use domain::Domain;
-use report::{Classes, OtherBounds};
+use report::Classes;
 
 /// Job of `abbe bound`: certifies upper bounds on the errors.
 #[derive(Clone)]
@@ -112,8 +112,8 @@ impl Bound {
             stiffness = searches.run(notes, |_, watch| domain.stiffness(&self.effort, watch))?;
         }
         let errors = [repeatable, random, total];
-        let others = OtherBounds { remainder, after_one_step, dexterity, stiffness };
-        let report = Report::new(domain, study, &self.effort, errors, others);
+        let (most, least) = ((remainder, after_one_step), (dexterity, stiffness));
+        let report = Report::new(domain, study, &self.effort, errors, most, least);
         let mut report = Report { changes: machine.stated_changes().collect(), ..report };
         for (margin, k) in [&mut report.margin, &mut report.orientation_margin].into_iter().zip(0..) {
             if let Some(margin) = margin {

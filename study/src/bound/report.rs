@@ -253,21 +253,14 @@ impl Remainder {
     }
 }
 
-/// Results besides the bounds on the errors.
-pub(super) struct OtherBounds {
-    pub(super) remainder: Option<Remainder>,
-    pub(super) after_one_step: Option<StepResidual>,
-    pub(super) dexterity: Option<Dexterity>,
-    pub(super) stiffness: Option<LowerBound>,
-}
-
 impl Report {
     pub(super) fn new(
         Domain { spec, spans: moving_spans, .. }: Domain,
         study: &Study,
         effort: &Effort,
         [repeatable, random, total]: [ErrorBounds; 3],
-        OtherBounds { remainder, after_one_step, dexterity, stiffness }: OtherBounds,
+        (remainder, after_one_step): (Option<Remainder>, Option<StepResidual>),
+        (dexterity, stiffness): (Option<Dexterity>, Option<LowerBound>),
     ) -> Self {
         let of_both = matches!(Classes::enabled(&spec), Classes { repeatable: true, random: true });
         // With sources of one class only, `total` is a copy and is not counted.

@@ -13,6 +13,7 @@ use abbe_codegen::graph::{Graph, Node};
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Cause, Source, Spec};
 
+use crate::closing::value_at_home;
 use crate::number::digits;
 
 /// Tolerance on the cosine between parallel directions.
@@ -175,12 +176,8 @@ impl Axis {
 /// ranges.
 fn values(graph: &Graph, spec: &Spec, nodes: &[Node], nominal: bool) -> Vec<f64> {
     graph.evaluate(nodes, |symbol| match symbol {
-        Symbol::Variable(i) => spec.variables[i].home,
-        Symbol::Parameter(i) => spec.parameters[i].value,
-        Symbol::Input(i) if nominal => spec.inputs[i].value,
-        Symbol::Input(i) => spec.inputs[i].range[1],
-        Symbol::Passive(i) | Symbol::Local(i) => spec.passive[i].home,
-        Symbol::Error(_) | Symbol::Magnitude(_) | Symbol::Target(_) => f64::NAN,
+        Symbol::Input(i) if !nominal => spec.inputs[i].range[1],
+        symbol => value_at_home(symbol, spec),
     })
 }
 

@@ -106,10 +106,7 @@ impl Dh {
             found.map_or(0.0, |(_, factor)| at_home(factor, spec))
         };
         Some(Self {
-            convention: match convention {
-                DhConvention::Standard => "standard",
-                DhConvention::Modified => "modified",
-            },
+            convention: convention.name(),
             theta: value(DhNumber::Theta),
             d: value(DhNumber::D),
             a: value(DhNumber::A),

@@ -16,7 +16,7 @@ use super::compensation::Compensated;
 use super::figure::Figure;
 use super::{keys, tolerance};
 use crate::changes::Changes;
-use crate::workspace::{Region, constant, positive, positive_length};
+use crate::workspace::{Region, constant, positive};
 
 /// Probability and yield that are required if a study states none.
 pub(super) const PROBABILITY: f64 = 0.95;
@@ -241,13 +241,10 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Published> {
                 .help("give either `source` and `metric`, or `combined`"),
         ),
     };
-    let mut figure = |key: &str| {
-        let item = section.get(key)?;
-        constant(&item, Dimension::LENGTH, &format!("the figure `{key}`"))
-    };
-    let figures = ["x", "y", "z", "norm"].map(&mut figure);
+    let figures = ["x", "y", "z", "norm"]
+        .map(|key| constant(&section.get(key)?, Dimension::LENGTH, &format!("the figure `{key}`")));
     let within = section.required("within");
-    let within = within.and_then(|item| positive_length(&item));
+    let within = within.and_then(|item| positive(&item, Dimension::LENGTH));
     let reference = section.optional_text("reference");
     Some(Published { subject: subject?, figures, within: within?, reference })
 }
@@ -256,10 +253,7 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Published> {
 pub(super) fn read_compensated(item: &Item<'_>) -> Option<PublishedResidual> {
     let section = item.section()?;
     section.check_keys(&[&keys::COMPENSATED]);
-    let length = |key: &str| {
-        let item = section.required(key)?;
-        positive_length(&item)
-    };
+    let length = |key: &str| positive(&section.required(key)?, Dimension::LENGTH);
     let (residual, random, total) = (length("residual"), length("random"), length("total"));
     let reference = section.optional_text("reference");
     Some(PublishedResidual { residual: residual?, random: random?, total: total?, reference })

@@ -8,7 +8,7 @@ use abbe_spec::{Diagnostic, Diagnostics, Document, Item};
 
 use super::choices::{JudgedMachine, MACHINES};
 use super::keys;
-use crate::workspace::positive_length;
+use crate::workspace::positive;
 
 /// Permitted errors of the tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -68,12 +68,12 @@ pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f
 /// Reads a length, or `{ position = "0.5 mm", orientation = "0.5 mrad", probability = 0.99 }`.
 pub(super) fn read(item: &Item<'_>) -> Option<Tolerance> {
     if !item.is_table() {
-        let position = positive_length(item)?;
+        let position = positive(item, Dimension::LENGTH)?;
         return Some(Tolerance { position: Some(position), ..Tolerance::default() });
     }
     let section = item.section()?;
     section.check_keys(&[&keys::TOLERANCE]);
-    let position = section.get("position").map(|item| positive_length(&item));
+    let position = section.get("position").map(|item| positive(&item, Dimension::LENGTH));
     let number = |key: &str, most: f64, help: &str| {
         section.get(key).map(|item| {
             let value = item.quantity(Dimension::NONE)?;

@@ -184,10 +184,7 @@ pub(super) fn values(item: &Item<'_>, dimension: Dimension) -> Option<Vec<f64>> 
         return (values.len() == items.len() && !items.is_empty()).then_some(values);
     }
     let section = item.table(format!("the range of `{}`", item.key), &[&keys::VALUES])?;
-    let end = |key: &str| {
-        let end = section.required(key)?;
-        constant(&end, dimension, &what)
-    };
+    let end = |key: &str| constant(&section.required(key)?, dimension, &what);
     let (from, to) = (end("from"), end("to"));
     match (section.get("count"), section.get("step")) {
         (Some(counted), None) => {
@@ -223,11 +220,6 @@ fn stepped([from, to]: [f64; 2], step: f64, item: &Item<'_>) -> Option<Vec<f64>>
 /// Reads a constant of a dimension.
 pub fn constant(item: &Item<'_>, dimension: Dimension, what: &str) -> Option<f64> {
     item.amount(&Scope::new(item.document.length), dimension, what)
-}
-
-/// Reads a length above zero.
-pub fn positive_length(item: &Item<'_>) -> Option<f64> {
-    positive(item, Dimension::LENGTH)
 }
 
 /// Reads a quantity above zero.

@@ -121,10 +121,7 @@ fn point(item: &Item<'_>) -> Option<[f64; 3]> {
 /// lists some.
 fn base_box(section: &Section<'_>, spec: &Spec) -> Option<BaseBox> {
     section.check_keys(&[&keys::BOX]);
-    let points = ["x", "y", "z"].map(|axis| {
-        let item = section.required(axis)?;
-        values(&item, Dimension::LENGTH)
-    });
+    let points = ["x", "y", "z"].map(|axis| values(&section.required(axis)?, Dimension::LENGTH));
     let free = Some(vec![ToolOrientation::Free]);
     let orientations = section.get("orientation").map_or(free, |item| orientations(&item));
     let variables = Candidates::variables(spec);

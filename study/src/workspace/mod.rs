@@ -12,7 +12,7 @@ mod path;
 mod region;
 mod span;
 
-pub use axis::{Candidates, constant, count, positive, positive_length, whole};
+pub use axis::{Candidates, constant, count, positive, whole};
 pub use forms::read_region;
 pub use keys::{AXIS, TABLES, rules};
 pub use path::Path;

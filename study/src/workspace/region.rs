@@ -1,5 +1,6 @@
 //! Workspace of a study.
 
+use abbe::analysis::sampling::range_of;
 use abbe::analysis::{
     Axis, BaseBox, Configuration, JointSamples, Legs, Presentation, Workspace, base_box, joint_grid,
     joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
@@ -270,8 +271,7 @@ fn describe_input(axis: &Axis, spec: &Spec) -> String {
             format!("{name} = {}", values.join(" and "))
         }
         values => {
-            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-            let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let [least, largest] = range_of(values.iter().copied());
             format!("{name} = {} … {} ({} values)", show(&least), show(&largest), values.len())
         }
     }

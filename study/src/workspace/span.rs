@@ -1,6 +1,7 @@
 //! Computes the box that encloses a workspace.
 
 use abbe::Manipulator;
+use abbe::analysis::sampling::range_of;
 use abbe::analysis::{Axis, BaseBox, Presentation};
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Diagnostics, Spec};
@@ -127,7 +128,5 @@ impl Region {
 }
 
 fn hull(symbol: Symbol, values: &[f64]) -> Span {
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    Span { symbol, range: [least, largest] }
+    Span { symbol, range: range_of(values.iter().copied()) }
 }

@@ -135,6 +135,6 @@ impl Kinematics for Chain {
     fn covariance(&self, graph: &mut Graph, _: &[[Node; 6]], variances: &[[Node; 6]]) -> Vec<[Node; 6]> {
         let Some((links, rows)) = &self.along else { return Vec::new() };
         let none = Covariance::none(graph);
-        links.accumulate(graph, variances, none).rows(graph, rows)
+        links.accumulate(graph, variances, 0, none).rows(graph, rows)
     }
 }

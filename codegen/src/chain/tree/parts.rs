@@ -106,11 +106,10 @@ impl<'s> Parts<'s> {
 
     /// Returns the equations of all loops, which are zero where these close.
     pub(super) fn residual(&self, graph: &mut Graph) -> Vec<Node> {
-        let mut residual = Vec::new();
-        for Part { ends, closure, length, view } in &self.loops {
-            residual.extend(closure::residual(graph, *ends, closure, *length, |frame| *view.pose(frame)));
-        }
-        residual
+        let residual = |Part { ends, closure, length, view }: &Part<'_>| {
+            closure::residual(graph, *ends, closure, *length, |frame| *view.pose(frame))
+        };
+        self.loops.iter().flat_map(residual).collect()
     }
 
     /// Returns an axis of the tool in `F_0`.
@@ -125,11 +124,10 @@ impl<'s> Parts<'s> {
 
     /// Returns numbers that are positive unless a rotation closes upside down.
     pub(super) fn upright(&self, graph: &mut Graph) -> Vec<Node> {
-        let mut upright = Vec::new();
-        for Part { ends, closure, view, .. } in &self.loops {
-            upright.extend(closure::upright(graph, *ends, closure, |frame| *view.pose(frame)));
-        }
-        upright
+        let upright = |Part { ends, closure, view, .. }: &Part<'_>| {
+            closure::upright(graph, *ends, closure, |frame| *view.pose(frame))
+        };
+        self.loops.iter().flat_map(upright).collect()
     }
 
     /// Returns the columns of `φ_p`, one per passive variable.

@@ -269,7 +269,7 @@ fn finish(
                 let (limit, sign) = (g.constant(limit - sign * slack), g.constant(sign));
                 let margin = g.sub(value, limit);
                 let margin = g.mul(sign, margin);
-                least(g, &mut inside, margin);
+                inside = Some(inside.map_or(margin, |inside| g.min(inside, margin)));
             }
         }
         found.push(match inside {
@@ -301,11 +301,6 @@ fn moved(g: &mut Graph, loops: &ClosedLoops, symbol: Symbol, share: Node, has_er
     let way = g.sub(value, home);
     let way = g.mul(share, way);
     Some(g.add(home, way))
-}
-
-/// Keeps the least of some nodes.
-fn least(g: &mut Graph, least: &mut Option<Node>, next: Node) {
-    *least = Some(least.map_or(next, |least| g.min(least, next)));
 }
 
 /// Returns 1 if a number is not negative, otherwise 0.

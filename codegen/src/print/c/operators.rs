@@ -52,13 +52,6 @@ impl Syntax for C<'_> {
         Expression::number(self.real.number(value), value)
     }
 
-    fn zero_and_one(&self) -> [&'static str; 2] {
-        match self.real {
-            Real::Double => ["0.0", "1.0"],
-            Real::Float => ["0.0f", "1.0f"],
-        }
-    }
-
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
         let own = |name: &str| Expression::call(name, operands);
         let call = |name: &str| own(&self.real.function(name));

@@ -48,6 +48,7 @@ impl CPrinter<'_> {
 
 impl Printer for CPrinter<'_> {
     const FUNCTIONS: [&'static str; 6] = ["fabs", "sqrt", "atan2", "clamped", "sine", "cosine"];
+    const TRUTH: [&'static str; 2] = ["0", "1"];
     const BRANCH: [&'static str; 3] = ["if (", ") {", "}"];
     const ADDS_IN_PLACE: bool = true;
     const SKIPS_EMPTY: bool = true;
@@ -71,10 +72,6 @@ impl Printer for CPrinter<'_> {
 
     fn flag(&self, name: &str) -> String {
         format!("{name} != 0")
-    }
-
-    fn truth(&self, value: bool) -> String {
-        u8::from(value).to_string()
     }
 
     fn status(&self, status: Status) -> String {

@@ -47,18 +47,12 @@ impl Real {
 
     /// Returns the largest number.
     pub(super) fn largest(self) -> f64 {
-        match self {
-            Self::Double => f64::MAX,
-            Self::Float => f64::from(f32::MAX),
-        }
+        [f64::MAX, f64::from(f32::MAX)][self as usize]
     }
 
     /// Returns the precision of the corrected command.
     pub(super) fn precision(self) -> Precision {
-        match self {
-            Self::Double => Precision::Double,
-            Self::Float => Precision::Single,
-        }
+        [Precision::Double, Precision::Single][self as usize]
     }
 
     /// Returns the unit of roundoff: the maximum relative error of rounding.
@@ -136,17 +130,11 @@ impl Real {
     }
 
     fn suffix(self) -> &'static str {
-        match self {
-            Self::Double => "",
-            Self::Float => "f",
-        }
+        ["", "f"][self as usize]
     }
 
     fn epsilon(self) -> f64 {
-        match self {
-            Self::Double => f64::EPSILON,
-            Self::Float => f64::from(f32::EPSILON),
-        }
+        [f64::EPSILON, f64::from(f32::EPSILON)][self as usize]
     }
 }
 

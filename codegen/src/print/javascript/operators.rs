@@ -28,10 +28,6 @@ impl Syntax for JavaScript<'_> {
         Expression::number(number(value), value)
     }
 
-    fn zero_and_one(&self) -> [&'static str; 2] {
-        ["0", "1"]
-    }
-
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
         let call = |name: &str| Expression::call(&format!("Math.{name}"), operands);
         arithmetic(action, operands).unwrap_or_else(|called| match called {

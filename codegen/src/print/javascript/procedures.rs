@@ -38,6 +38,7 @@ pub(super) struct JavaScriptPrinter<'p> {
 impl Printer for JavaScriptPrinter<'_> {
     const FUNCTIONS: [&'static str; 6] =
         ["Math.abs", "Math.sqrt", "Math.atan2", "clamped", "Math.sin", "Math.cos"];
+    const OPERATORS: [&'static str; 3] = ["&&", "||", "==="];
     const BRANCH: [&'static str; 3] = ["if (", ") {", "}"];
     const ADDS_IN_PLACE: bool = true;
 
@@ -47,10 +48,6 @@ impl Printer for JavaScriptPrinter<'_> {
 
     fn number(&self, value: f64) -> Expression {
         Expression::number(number(value), value)
-    }
-
-    fn operators(&self) -> [&'static str; 3] {
-        ["&&", "||", "==="]
     }
 
     fn status(&self, status: Status) -> String {

@@ -40,10 +40,6 @@ impl Syntax for Matlab<'_> {
         Expression::number(number(value), value)
     }
 
-    fn zero_and_one(&self) -> [&'static str; 2] {
-        ["0", "1"]
-    }
-
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
         let call = |name: &str| Expression::call(name, operands);
         let own = |name: &str| call(&format!("{}.{name}", self.class));

@@ -25,10 +25,6 @@ impl Syntax for Python<'_> {
         Expression::number(number(value), value)
     }
 
-    fn zero_and_one(&self) -> [&'static str; 2] {
-        ["0.0", "1.0"]
-    }
-
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
         let call = |name: &str| Expression::call(&format!("np.{name}"), operands);
         arithmetic(action, operands).unwrap_or_else(|called| match called {

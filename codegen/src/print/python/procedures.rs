@@ -35,6 +35,8 @@ const ROUND: &str = "6755399441055744.0";
 
 impl Printer for PythonPrinter<'_> {
     const FUNCTIONS: [&'static str; 6] = ["np.abs", "np.sqrt", "np.arctan2", "_clamped", "np.sin", "np.cos"];
+    const OPERATORS: [&'static str; 3] = ["&", "|", "=="];
+    const TRUTH: [&'static str; 2] = ["False", "True"];
     const BRANCH: [&'static str; 3] = ["if np.all(", "):", ""];
     const LOOP_END: &'static str = "";
     const LEAVE: &'static str = "break";
@@ -46,14 +48,6 @@ impl Printer for PythonPrinter<'_> {
 
     fn number(&self, value: f64) -> Expression {
         Expression::number(number(value), value)
-    }
-
-    fn operators(&self) -> [&'static str; 3] {
-        ["&", "|", "=="]
-    }
-
-    fn truth(&self, value: bool) -> String {
-        if value { "True" } else { "False" }.to_owned()
     }
 
     fn status(&self, status: Status) -> String {

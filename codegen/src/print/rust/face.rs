@@ -1,8 +1,8 @@
 //! Public items of a generated module: constants, parameters, inputs, the checked functions, the
 //! trait.
 
-use abbe_core::distinct::VECTORS_OF_TREE;
-use abbe_core::{Class, LengthUnit, Orientation, VariableKind};
+use abbe_core::distinct::{VECTORS_OF_TREE, vectors};
+use abbe_core::{Class, VariableKind};
 use abbe_spec::{Spec, Variable};
 
 use super::operators::number;
@@ -29,19 +29,7 @@ pub(super) fn type_name(name: &str) -> String {
 /// Prints the counts, and [`DESCRIPTION`] with every name, unit and limit.
 pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
     let effects = &model.effects;
-    let distinct = match spec.orientation {
-        _ if !spec.is_serial() => VECTORS_OF_TREE,
-        Orientation::RotationVector => 6,
-        Orientation::EulerYzx | Orientation::Iec61217 => 9,
-    };
-    let passive = spec.passive.len();
-    let passive = (passive > 0).then_some(("PASSIVE", passive, "Number of passive variables."));
-    let solutions = model.solutions();
-    let solutions = (solutions > 0).then_some((
-        "SOLUTIONS",
-        solutions,
-        "Largest number of solutions of inverse kinematics.",
-    ));
+    let distinct = if spec.is_serial() { vectors(spec.orientation) } else { VECTORS_OF_TREE };
     for (name, count, documentation) in [
         ("FRAMES", spec.frames.len(), "Number of frames n."),
         ("ERRORS", 6 * spec.frames.len(), "Number of generalized errors: 6n, the length of ε."),
@@ -55,11 +43,12 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
             distinct,
             "Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.",
         ),
-    ]
-    .into_iter()
-    .chain(passive)
-    .chain(solutions)
-    {
+        ("PASSIVE", spec.passive.len(), "Number of passive variables."),
+        ("SOLUTIONS", model.solutions(), "Largest number of solutions of inverse kinematics."),
+    ] {
+        if count == 0 && matches!(name, "PASSIVE" | "SOLUTIONS") {
+            continue;
+        }
         writer.documentation(documentation);
         writer.lines(&format!("pub const {name}: usize = {count};"));
     }
@@ -69,15 +58,8 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
     writer.open("pub static DESCRIPTION: Description = Description");
     writer.lines(&format!("name: Text::Constant({name:?}),"));
     writer.lines(&format!("title: Text::Constant({title:?}),"));
-    writer.lines(match spec.length {
-        LengthUnit::Metre => "length: LengthUnit::Metre,",
-        LengthUnit::Millimetre => "length: LengthUnit::Millimetre,",
-    });
-    writer.lines(match spec.orientation {
-        Orientation::RotationVector => "orientation: Orientation::RotationVector,",
-        Orientation::EulerYzx => "orientation: Orientation::EulerYzx,",
-        Orientation::Iec61217 => "orientation: Orientation::Iec61217,",
-    });
+    writer.lines(&format!("length: LengthUnit::{:?},", spec.length));
+    writer.lines(&format!("orientation: Orientation::{:?},", spec.orientation));
     let entries = writer.indent() + 4;
     let mut list = |name: &str, entries: Vec<(&str, Vec<String>)>| {
         writer.array_of_calls(&format!("{name}: List::Constant(&"), &entries, "),");

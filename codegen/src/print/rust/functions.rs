@@ -101,29 +101,23 @@ fn body(mut printer: Printer<'_>, Statements { list, constants, .. }: &Statement
 fn argument((array, used): (&Array, &bool)) -> String {
     let unused = if *used { "" } else { "_" };
     let reference = if array.role == Role::Argument { "&" } else { "&mut " };
-    let element = |element: String, count: &Count| format!("[{element}; {}]", size(*count));
-    let kind = array.shape.iter().rev().fold("T".to_owned(), element);
-    format!("{unused}{}: {reference}{kind}", array.name)
+    format!("{unused}{}: {reference}{}", array.name, nested("T", array))
+}
+
+/// Returns the type of an array or an array of equal elements, from its innermost element.
+fn nested(element: &str, array: &Array) -> String {
+    let outer = |inner: String, count: &Count| format!("[{inner}; {}]", size(*count));
+    array.shape.iter().rev().fold(element.to_owned(), outer)
 }
 
 /// Returns the name of a dimension.
 fn size(count: Count) -> String {
     match count {
-        Count::Exactly(count) => return count.to_string(),
-        Count::Frames => "FRAMES",
-        Count::FramesAndTool => "FRAMES + 1",
-        Count::BaseToTool => "FRAMES + 2",
-        Count::Errors => "ERRORS",
-        Count::Distinct => "DISTINCT",
-        Count::Variables => "VARIABLES",
-        Count::Passive => "PASSIVE",
-        Count::Parameters => "PARAMETERS",
-        Count::Inputs => "INPUTS",
-        Count::Effects => "EFFECTS",
-        Count::Sources => "SOURCES",
-        Count::Solutions => "SOLUTIONS",
+        Count::Exactly(count) => count.to_string(),
+        Count::FramesAndTool => "FRAMES + 1".to_owned(),
+        Count::BaseToTool => "FRAMES + 2".to_owned(),
+        count => format!("{count:?}").to_ascii_uppercase(),
     }
-    .to_owned()
 }
 
 /// Returns the index of the last of this many rows.
@@ -165,7 +159,7 @@ impl Printer<'_> {
             Statement::Declare(array) => self.declare(*array),
             Statement::Clear(array) => {
                 let array = &self.routine.arrays[*array];
-                let value = self.zeros(array);
+                let value = nested("zero", array);
                 let reference = if array.role == Role::Result { "*" } else { "" };
                 self.writer.lines(&format!("{reference}{} = {value};", array.name));
             }
@@ -240,16 +234,10 @@ impl Printer<'_> {
         }
     }
 
-    /// Returns `[[zero; 3]; 4]`.
-    fn zeros(&self, array: &Array) -> String {
-        let nested = |element: String, count: &Count| format!("[{element}; {}]", size(*count));
-        array.shape.iter().rev().fold("zero".to_owned(), nested)
-    }
-
     fn declare(&mut self, array: usize) {
         let array = &self.routine.arrays[array];
         if array.role == Role::Zeros {
-            let value = self.zeros(array);
+            let value = nested("zero", array);
             self.writer.lines(&format!("let mut {} = {value};", array.name));
         }
     }

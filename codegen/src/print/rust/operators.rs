@@ -26,8 +26,8 @@ impl Syntax for Rust<'_> {
         Expression::new(format!("T::constant({})", number(value)), Binding::Atom)
     }
 
-    fn zero_and_one(&self) -> [&'static str; 2] {
-        ["zero", "one"]
+    fn zero_or_one(&self, value: f64) -> String {
+        if value == 0.0 { "zero" } else { "one" }.to_owned()
     }
 
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {

@@ -99,10 +99,6 @@ impl Syntax for StructuredText {
         Expression::new(number(value), if value.is_sign_negative() { Binding::Choice } else { Binding::Atom })
     }
 
-    fn zero_and_one(&self) -> [&'static str; 2] {
-        ["LREAL#0.0", "LREAL#1.0"]
-    }
-
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
         if let Some(support) = Support::for_action(action) {
             return self.own(support, operands);
@@ -150,19 +146,14 @@ pub(super) fn spelled(name: &str) -> String {
 /// Returns the shortest typed literal that represents the number exactly.
 pub(super) fn number(value: f64) -> String {
     let sign = if value.is_sign_negative() { "-" } else { "" };
-    format!("{sign}LREAL#{}", digits(value.abs()))
-}
-
-/// Returns the shortest literal of an initial value.
-pub(super) fn initial(value: f64) -> String {
-    digits(value)
+    format!("{sign}LREAL#{}", initial(value.abs()))
 }
 
 /// Largest number that stands for infinity.
 const INFINITE: f64 = 1e300;
 
-/// Returns the digits of a number, with a point and a capital exponent.
-fn digits(value: f64) -> String {
+/// Returns the shortest literal of an initial value, with a point and a capital exponent.
+pub(super) fn initial(value: f64) -> String {
     let text = format!("{:?}", value.clamp(-INFINITE, INFINITE));
     match text.split_once('e') {
         None => text,

@@ -123,6 +123,8 @@ impl Printer for BlockPrinter<'_> {
         Support::Sine.name(),
         Support::Cosine.name(),
     ];
+    const OPERATORS: [&'static str; 3] = ["AND", "OR", "="];
+    const TRUTH: [&'static str; 2] = ["FALSE", "TRUE"];
     const BRANCH: [&'static str; 3] = ["IF ", " THEN", "END_IF;"];
     const LOOP_END: &'static str = "END_FOR;";
     const HAS_LESS: bool = false;
@@ -162,14 +164,6 @@ impl Printer for BlockPrinter<'_> {
             Called::Absolute | Called::Root => name.to_owned(),
             _ => format!("{}_{name}", self.prefix),
         }
-    }
-
-    fn operators(&self) -> [&'static str; 3] {
-        ["AND", "OR", "="]
-    }
-
-    fn truth(&self, value: bool) -> String {
-        if value { "TRUE" } else { "FALSE" }.to_owned()
     }
 
     fn real(&self, whole: &Index) -> Expression {

@@ -99,7 +99,7 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         b.copy(after, rest);
         let reached = cycle.distances(b, machine);
         let cases = [
-            (moved.get().exceeds(machine.precision.rest()), Status::NotConverged),
+            (moved.get().exceeds(machine.precision.tolerances().rest), Status::NotConverged),
             (is_held.into(), Status::Held),
             (reached, Status::Reached),
             (is_outside.into(), Status::OutsideLimits),
@@ -170,7 +170,7 @@ impl Cycle {
         b.call("weighted", [self.axes, self.rest], weights);
         b.set(far, weights.dot(weights, [0, 3], |k| [k, k]).sqrt());
         b.set(angle, weights.dot(weights, [3, 6], |k| [k, k]).sqrt());
-        let [position, rotation] = machine.precision.reached();
+        let [position, rotation] = machine.precision.tolerances().reached;
         let is_near = Value::from(position).is_at_least(far);
         is_near.and(Value::from(rotation * LEVER).is_at_least(angle))
     }

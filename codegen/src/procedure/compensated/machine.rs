@@ -17,40 +17,32 @@ pub enum Precision {
     Single,
 }
 
-impl Precision {
+/// Tolerances of the corrected command.
+pub(crate) struct Tolerances {
     /// Damping of the steps, in metres and radians: λ, or its square root in single precision,
     /// where no squares are formed.
-    pub(super) fn damping(self) -> f64 {
-        match self {
-            Self::Double => DAMPING,
-            Self::Single => DAMPING.sqrt(),
-        }
-    }
-
+    pub(super) damping: f64,
     /// Step size for convergence, in radians and metres.
-    pub(super) fn rest(self) -> f64 {
-        match self {
-            Self::Double => REST,
-            Self::Single => 1e-5,
-        }
-    }
-
+    pub(super) rest: f64,
     /// Largest error of a pose that is reached: position in metres, rotation in rad. In single
     /// precision a pose is accurate to about 1e-6 m, which a singular value of 0.1 amplifies to
     /// 1e-5.
-    pub(crate) fn reached(self) -> [f64; 2] {
-        match self {
-            Self::Double => REACHED,
-            Self::Single => [1e-5; 2],
-        }
-    }
-
+    pub(crate) reached: [f64; 2],
     /// Below this value the square of twice the sine of an angle underflows, and the angle itself
     /// is used.
-    pub(super) fn least_sine(self) -> f64 {
+    pub(super) least_sine: f64,
+}
+
+impl Precision {
+    /// Returns the tolerances of the precision.
+    pub(crate) fn tolerances(self) -> Tolerances {
         match self {
-            Self::Double => LEAST_SINE,
-            Self::Single => 1e-18,
+            Self::Double => {
+                Tolerances { damping: DAMPING, rest: REST, reached: REACHED, least_sine: LEAST_SINE }
+            }
+            Self::Single => {
+                Tolerances { damping: DAMPING.sqrt(), rest: 1e-5, reached: [1e-5; 2], least_sine: 1e-18 }
+            }
         }
     }
 
@@ -62,7 +54,7 @@ impl Precision {
 
     /// Returns the meaning of a status, with the bound of what is left where it is reached.
     pub(crate) fn meaning(self, status: Status) -> String {
-        let [position, rotation] = self.reached().map(|bound| (bound * 1e6).round());
+        let [position, rotation] = self.tolerances().reached.map(|bound| (bound * 1e6).round());
         match status {
             Status::Reached => format!(
                 "{} At most {position} μm and {rotation} μrad of the rotations are left, up to rounding errors.",
@@ -116,7 +108,7 @@ pub(super) fn deviation(machine: &Machine<'_>) -> Procedure {
         let square = |k: usize| v.at(k) * v.at(k);
         b.set(twice_sine, (square(0) + square(1) + square(2)).sqrt());
         b.set(scale, 0.5);
-        let least = machine.precision.least_sine();
+        let least = machine.precision.tolerances().least_sine;
         b.when(twice_sine.get().is_at_least(least), |b| {
             let twice_cosine = turn.at(0) + turn.at(4) + turn.at(8) - 1.0;
             b.set(scale, twice_sine.get().atan2(twice_cosine) / twice_sine);

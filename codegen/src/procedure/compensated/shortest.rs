@@ -17,7 +17,7 @@ const BY_ROWS: &str = "Shortest step J^T x, from J J^T x = b, by iterated Tikhon
 
 /// Shortest step: from J^T J for fewer than six joints, from J J^T for six or more.
 pub(super) fn shortest(machine: &Machine<'_>) -> Procedure {
-    let (count, damping) = (machine.count, machine.precision.damping());
+    let (count, damping) = (machine.count, machine.precision.tolerances().damping);
     let (by_columns, rank) = (count < 6, count.min(6));
     Procedure::new("shortest", if by_columns { BY_COLUMNS } else { BY_ROWS }, |b| {
         let (columns, wanted) = (b.argument("columns", 6 * count), b.argument("wanted", 6));

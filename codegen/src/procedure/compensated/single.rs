@@ -20,7 +20,7 @@ const BY_ROWS: &str = "Shortest step, by iterated Tikhonov regularization: each 
 
 /// Shortest step from the columns of J for fewer than six joints, from its rows for six or more.
 pub(super) fn shortest(machine: &Machine<'_>) -> Procedure {
-    let (count, damping) = (machine.count, machine.precision.damping());
+    let (count, damping) = (machine.count, machine.precision.tolerances().damping);
     let (by_columns, rank, len) = (count < 6, count.min(6), 6 + count);
     Procedure::new("shortest", if by_columns { BY_COLUMNS } else { BY_ROWS }, |b| {
         let (columns, wanted) = (b.argument("columns", 6 * count), b.argument("wanted", 6));

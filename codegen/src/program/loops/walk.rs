@@ -129,7 +129,7 @@ impl RoutineBuilder<'_, '_> {
     fn errors(&mut self, errors: &[[Node; 6]]) -> usize {
         let array = self.zeros("errors", &[Count::Frames, Count::Exactly(6)]);
         let program = Program::new(&self.loops.model.graph, errors.as_flattened());
-        let writes = vec![ArrayRows { array, row: Row::All }];
+        let writes = vec![ArrayRows::all(array)];
         self.stages.push(Stage::Block(Block { reads: vec![], program, writes, repeated: None }));
         array
     }

@@ -19,10 +19,9 @@ pub(super) fn robot(document: &Document) -> Option<Robot> {
     if let Some(mistake) = not_urdf(root) {
         return document.fail(mistake);
     }
-    let mut reader = Reader { document };
     let children = |tag| root.children().filter(move |node| node.has_tag_name(tag));
-    let links = children("link").filter_map(|node| reader.link(node)).collect();
-    let joints = children("joint").filter_map(|node| reader.joint(node)).collect();
+    let links = children("link").filter_map(|node| link(node, document)).collect();
+    let joints = children("joint").filter_map(|node| joint(node, document)).collect();
     let meshes = root.descendants().filter(|node| node.has_tag_name("mesh")).count();
     let name = root.attribute("name").filter(|name| !name.trim().is_empty()).unwrap_or("robot").to_owned();
     Some(Robot { name, links, joints, meshes })
@@ -87,167 +86,154 @@ fn start_of(node: Node<'_, '_>) -> Span {
     start..tag
 }
 
-/// Reads elements; mistakes go to the document.
-struct Reader<'d> {
-    document: &'d Document,
+fn link(node: Node<'_, '_>, document: &Document) -> Option<Link> {
+    let name = name(node, document)?;
+    let mass = child(node, "inertial").and_then(|inertial| {
+        let mass = child(inertial, "mass").and_then(|mass| number(mass, "value", document))?;
+        let centre = placement(child(inertial, "origin"), document)?;
+        (mass != 0.0).then_some((mass, centre.xyz))
+    });
+    if let Some((mass, _)) = mass
+        && mass < 0.0
+    {
+        let message = format!("the mass of `{name}` is negative");
+        let mistake = Diagnostic::new(start_of(node), message);
+        document.mistake(mistake.help("a mass must be 0 or positive"));
+    }
+    Some(Link { name, span: start_of(node), mass })
 }
 
-impl Reader<'_> {
-    fn link(&mut self, node: Node<'_, '_>) -> Option<Link> {
-        let name = self.name(node)?;
-        let mass = child(node, "inertial").and_then(|inertial| {
-            let mass = child(inertial, "mass").and_then(|mass| self.number(mass, "value"))?;
-            let centre = self.placement(child(inertial, "origin"))?;
-            (mass != 0.0).then_some((mass, centre.xyz))
-        });
-        if let Some((mass, _)) = mass
-            && mass < 0.0
-        {
-            let message = format!("the mass of `{name}` is negative");
-            let mistake = Diagnostic::new(start_of(node), message);
-            self.document.mistake(mistake.help("a mass must be 0 or positive"));
-        }
-        Some(Link { name, span: start_of(node), mass })
-    }
+fn joint(node: Node<'_, '_>, document: &Document) -> Option<Joint> {
+    let name = name(node, document);
+    let kind = kind(node, document);
+    let parent = end(node, "parent", document);
+    let child_link = end(node, "child", document);
+    let placement = placement(child(node, "origin"), document);
+    let (name, kind) = (name?, kind?);
+    let axis = axis(node, &name, kind, document);
+    let limits = limits(node, &name, kind, document);
+    let mimic = child(node, "mimic").map_or(Some(None), |node| mimic(node, document).map(Some))?;
+    Some(Joint {
+        span: start_of(node),
+        kind,
+        parent: parent?,
+        child: child_link?,
+        placement: placement?,
+        axis: axis?,
+        limits: limits?,
+        mimic,
+        name,
+    })
+}
 
-    fn joint(&mut self, node: Node<'_, '_>) -> Option<Joint> {
-        let name = self.name(node);
-        let kind = self.kind(node);
-        let parent = self.end(node, "parent");
-        let child_link = self.end(node, "child");
-        let placement = self.placement(child(node, "origin"));
-        let (name, kind) = (name?, kind?);
-        let axis = self.axis(node, &name, kind);
-        let limits = self.limits(node, &name, kind);
-        let mimic = child(node, "mimic").map_or(Some(None), |mimic| self.mimic(mimic).map(Some))?;
-        Some(Joint {
-            span: start_of(node),
-            kind,
-            parent: parent?,
-            child: child_link?,
-            placement: placement?,
-            axis: axis?,
-            limits: limits?,
-            mimic,
-            name,
-        })
-    }
+fn kind(node: Node<'_, '_>, document: &Document) -> Option<JointKind> {
+    let attribute = attribute(node, "type", document)?;
+    let found = JointKind::ALL.into_iter().find(|(name, _)| *name == attribute.value().trim());
+    found.map(|(_, kind)| kind).or_else(|| {
+        let names = JointKind::ALL.map(|(name, _)| name).join(", ");
+        let message = format!("unknown joint type `{}`", attribute.value().escape_debug());
+        document.refuse(attribute.range_value(), message, &format!("the types are {names}"))
+    })
+}
 
-    fn kind(&mut self, node: Node<'_, '_>) -> Option<JointKind> {
-        let attribute = self.attribute(node, "type")?;
-        let found = JointKind::ALL.into_iter().find(|(name, _)| *name == attribute.value().trim());
-        found.map(|(_, kind)| kind).or_else(|| {
-            let names = JointKind::ALL.map(|(name, _)| name).join(", ");
-            let message = format!("unknown joint type `{}`", attribute.value().escape_debug());
-            self.fault(attribute.range_value(), message, &format!("the types are {names}"))
-        })
-    }
+/// Reads the link at one end of a joint: `parent` or `child`.
+fn end(node: Node<'_, '_>, tag: &str, document: &Document) -> Option<Named> {
+    let Some(end) = child(node, tag) else {
+        let message = format!("this joint has no <{tag}>");
+        return document.refuse(start_of(node), message, &format!("name the link: <{tag} link=\"…\"/>"));
+    };
+    let link = attribute(end, "link", document)?;
+    Some(Named { name: link.value().to_owned(), span: link.range_value() })
+}
 
-    /// Reads the link at one end of a joint: `parent` or `child`.
-    fn end(&mut self, node: Node<'_, '_>, tag: &str) -> Option<Named> {
-        let Some(end) = child(node, tag) else {
-            let message = format!("this joint has no <{tag}>");
-            return self.fault(start_of(node), message, &format!("name the link: <{tag} link=\"…\"/>"));
-        };
-        let link = self.attribute(end, "link")?;
-        Some(Named { name: link.value().to_owned(), span: link.range_value() })
+/// Reads the axis of a joint as a unit vector; x without an `<axis>`, by the definition of
+/// URDF.
+fn axis(node: Node<'_, '_>, name: &str, kind: JointKind, document: &Document) -> Option<[f64; 3]> {
+    let Some(axis) = child(node, "axis") else { return Some([1.0, 0.0, 0.0]) };
+    let xyz = three(axis, "xyz", [1.0, 0.0, 0.0], document)?;
+    let largest = xyz.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    let length = xyz.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt() * largest;
+    if length > 0.0 {
+        // A unit vector but for rounding stays as it is in the file.
+        return Some(if (length - 1.0).abs() < 1e-15 { xyz } else { xyz.map(|x| x / length) });
     }
-
-    /// Reads the axis of a joint as a unit vector; x without an `<axis>`, by the definition of
-    /// URDF.
-    fn axis(&mut self, node: Node<'_, '_>, name: &str, kind: JointKind) -> Option<[f64; 3]> {
-        let Some(axis) = child(node, "axis") else { return Some([1.0, 0.0, 0.0]) };
-        let xyz = self.three(axis, "xyz", [1.0, 0.0, 0.0])?;
-        let largest = xyz.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        let length = xyz.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt() * largest;
-        if length > 0.0 {
-            // A unit vector but for rounding stays as it is in the file.
-            return Some(if (length - 1.0).abs() < 1e-15 { xyz } else { xyz.map(|x| x / length) });
-        }
-        if matches!(kind, JointKind::Fixed | JointKind::Floating) {
-            return Some([1.0, 0.0, 0.0]);
-        }
-        let message = format!("the axis of `{name}` is zero");
-        self.fault(start_of(axis), message, "give its direction: <axis xyz=\"0 0 1\"/>")
+    if matches!(kind, JointKind::Fixed | JointKind::Floating) {
+        return Some([1.0, 0.0, 0.0]);
     }
+    let message = format!("the axis of `{name}` is zero");
+    document.refuse(start_of(axis), message, "give its direction: <axis xyz=\"0 0 1\"/>")
+}
 
-    /// Reads the limits of a joint; `Some(None)` for a kind or a joint without limits.
-    fn limits(&mut self, node: Node<'_, '_>, name: &str, kind: JointKind) -> Option<Option<[f64; 2]>> {
-        let Some(limit) = child(node, "limit") else { return Some(None) };
-        if !matches!(kind, JointKind::Revolute | JointKind::Prismatic) {
-            return Some(None);
-        }
-        // The defaults of URDF.
-        let [lower, upper] = ["lower", "upper"].map(|key| match limit.attribute(key) {
-            Some(_) => self.number(limit, key),
-            None => Some(0.0),
-        });
-        let (lower, upper) = (lower?, upper?);
-        if lower > upper {
-            let message = format!("the limits of `{name}` are reversed");
-            return self.fault(start_of(limit), message, "`lower` must not be greater than `upper`");
-        }
-        Some((lower < upper).then_some([lower, upper]))
+/// Reads the limits of a joint; `Some(None)` for a kind or a joint without limits.
+fn limits(node: Node<'_, '_>, name: &str, kind: JointKind, document: &Document) -> Option<Option<[f64; 2]>> {
+    let Some(limit) = child(node, "limit") else { return Some(None) };
+    if !matches!(kind, JointKind::Revolute | JointKind::Prismatic) {
+        return Some(None);
     }
-
-    fn mimic(&mut self, node: Node<'_, '_>) -> Option<Mimic> {
-        let joint = self.attribute(node, "joint")?;
-        let mut number = |key, default| match node.attribute(key) {
-            Some(_) => self.number(node, key),
-            None => Some(default),
-        };
-        let (multiplier, offset) = (number("multiplier", 1.0), number("offset", 0.0));
-        let joint = Named { name: joint.value().to_owned(), span: joint.range_value() };
-        Some(Mimic { joint, multiplier: multiplier?, offset: offset? })
+    // The defaults of URDF.
+    let [lower, upper] = ["lower", "upper"].map(|key| number_or(limit, key, 0.0, document));
+    let (lower, upper) = (lower?, upper?);
+    if lower > upper {
+        let message = format!("the limits of `{name}` are reversed");
+        return document.refuse(start_of(limit), message, "`lower` must not be greater than `upper`");
     }
+    Some((lower < upper).then_some([lower, upper]))
+}
 
-    fn placement(&mut self, node: Option<Node<'_, '_>>) -> Option<Placement> {
-        let Some(node) = node else { return Some(Placement::default()) };
-        let xyz = self.three(node, "xyz", [0.0; 3]);
-        let rpy = self.three(node, "rpy", [0.0; 3]);
-        Some(Placement { xyz: xyz?, rpy: rpy? })
-    }
+fn mimic(node: Node<'_, '_>, document: &Document) -> Option<Mimic> {
+    let joint = attribute(node, "joint", document)?;
+    let multiplier = number_or(node, "multiplier", 1.0, document);
+    let offset = number_or(node, "offset", 0.0, document);
+    let joint = Named { name: joint.value().to_owned(), span: joint.range_value() };
+    Some(Mimic { joint, multiplier: multiplier?, offset: offset? })
+}
 
-    fn three(&mut self, node: Node<'_, '_>, key: &str, default: [f64; 3]) -> Option<[f64; 3]> {
-        let Some(attribute) = node.attribute_node(key) else { return Some(default) };
-        let numbers: Option<Vec<f64>> = attribute.value().split_whitespace().map(finite).collect();
-        match numbers.as_deref() {
-            Some(&[x, y, z]) => Some([x, y, z]),
-            _ => {
-                let message = format!("`{key}` must be three finite numbers");
-                self.fault(attribute.range_value(), message, "separate them by blanks: `0 0 0.5`")
-            }
+fn placement(node: Option<Node<'_, '_>>, document: &Document) -> Option<Placement> {
+    let Some(node) = node else { return Some(Placement::default()) };
+    let xyz = three(node, "xyz", [0.0; 3], document);
+    let rpy = three(node, "rpy", [0.0; 3], document);
+    Some(Placement { xyz: xyz?, rpy: rpy? })
+}
+
+fn three(node: Node<'_, '_>, key: &str, default: [f64; 3], document: &Document) -> Option<[f64; 3]> {
+    let Some(attribute) = node.attribute_node(key) else { return Some(default) };
+    let numbers: Option<Vec<f64>> = attribute.value().split_whitespace().map(finite).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) => Some([x, y, z]),
+        _ => {
+            let message = format!("`{key}` must be three finite numbers");
+            document.refuse(attribute.range_value(), message, "separate them by blanks: `0 0 0.5`")
         }
     }
+}
 
-    fn number(&mut self, node: Node<'_, '_>, key: &str) -> Option<f64> {
-        let attribute = self.attribute(node, key)?;
-        finite(attribute.value().trim()).or_else(|| {
-            let help = "write it with a decimal point: `0.5`";
-            self.fault(attribute.range_value(), format!("`{key}` must be a finite number"), help)
-        })
-    }
+fn number_or(node: Node<'_, '_>, key: &str, default: f64, document: &Document) -> Option<f64> {
+    if node.has_attribute(key) { number(node, key, document) } else { Some(default) }
+}
 
-    fn name(&mut self, node: Node<'_, '_>) -> Option<String> {
-        let attribute = self.attribute(node, "name")?;
-        let name = attribute.value();
-        if name.trim().is_empty() || name.contains(alters_text) || name.len() > LONGEST {
-            let help = format!("a name has at most {LONGEST} bytes, in one line");
-            return self.fault(attribute.range_value(), "this is not a valid name".to_owned(), &help);
-        }
-        Some(name.to_owned())
-    }
+fn number(node: Node<'_, '_>, key: &str, document: &Document) -> Option<f64> {
+    let attribute = attribute(node, key, document)?;
+    finite(attribute.value().trim()).or_else(|| {
+        let help = "write it with a decimal point: `0.5`";
+        document.refuse(attribute.range_value(), format!("`{key}` must be a finite number"), help)
+    })
+}
 
-    fn attribute<'a, 'i>(&mut self, node: Node<'a, 'i>, key: &str) -> Option<Attribute<'a, 'i>> {
-        node.attribute_node(key).or_else(|| {
-            let message = format!("this <{}> has no `{key}`", node.tag_name().name());
-            self.fault(start_of(node), message, &format!("add {key}=\"…\""))
-        })
+fn name(node: Node<'_, '_>, document: &Document) -> Option<String> {
+    let attribute = attribute(node, "name", document)?;
+    let name = attribute.value();
+    if name.trim().is_empty() || name.contains(alters_text) || name.len() > LONGEST {
+        let help = format!("a name has at most {LONGEST} bytes, in one line");
+        return document.refuse(attribute.range_value(), "this is not a valid name".to_owned(), &help);
     }
+    Some(name.to_owned())
+}
 
-    fn fault<T>(&mut self, span: Span, message: String, help: &str) -> Option<T> {
-        self.document.refuse(span, message, help)
-    }
+fn attribute<'a, 'i>(node: Node<'a, 'i>, key: &str, document: &Document) -> Option<Attribute<'a, 'i>> {
+    node.attribute_node(key).or_else(|| {
+        let message = format!("this <{}> has no `{key}`", node.tag_name().name());
+        document.refuse(start_of(node), message, &format!("add {key}=\"…\""))
+    })
 }
 
 /// Longest name in bytes: that of a frame in a spec.

@@ -105,6 +105,17 @@ fn distance(zero: &str, range: &str) -> Map {
     ))
 }
 
+/// A dial has few digits: equal readings at one configuration are no copies.
+#[test]
+fn equal_readings_are_kept() {
+    let row = "10,-80,70,20,40,0,1,312.25\n";
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bar.csv");
+    std::fs::write(&file, format!("j1,j2,j3,j4,j5,j6,setup,length\n{row}{row}{row}")).unwrap();
+    let data = Data::read(&*file, &distance("\"unknown\"", "")).unwrap();
+    assert_eq!((data.observations.len(), data.unusable.len()), (3, 0));
+}
+
 fn simulated(map: &Map, samples: usize, seed: u64) -> Data {
     simulated_by(real(), map, samples, seed)
 }

@@ -58,15 +58,15 @@ pub fn bound(description: &Description, kind: VariableKind, [angle, length]: [f6
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// At most [`REACHED`] is left.
-    Reached,
+    Reached = 0,
     /// The command is beyond a limit of its joints.
-    OutsideLimits,
+    OutsideLimits = 6,
     /// More is left, and a joint is at its limit or at a bound of the cycle.
-    Held,
+    Held = 5,
     /// More is left, and more iterations would change it.
-    NotConverged,
+    NotConverged = 4,
     /// More is left that no joint can correct: too few joints, or a singular pose.
-    NotReached,
+    NotReached = 7,
 }
 
 impl Status {
@@ -76,13 +76,7 @@ impl Status {
 
     /// Returns the number of the status in generated code. The numbers 1 to 3 are failures.
     pub const fn code(self) -> u8 {
-        match self {
-            Self::Reached => 0,
-            Self::NotConverged => 4,
-            Self::Held => 5,
-            Self::OutsideLimits => 6,
-            Self::NotReached => 7,
-        }
+        self as u8
     }
 
     /// Returns the name of the status in generated code.

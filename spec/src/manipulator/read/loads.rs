@@ -81,8 +81,9 @@ fn read_tool_point(item: &Item<'_>, frame: Option<usize>, tree: Tree<'_>) -> Opt
 }
 
 /// Reads `gravity`, in `[manipulator]` or at the top of the file.
-pub(super) fn read_gravity(item: &Item<'_>, scope: &Scope) -> Option<[Expression; 3]> {
-    vector(item, Dimension::ACCELERATION, "a component of gravity", scope)
+pub(super) fn read_gravity(root: &Section<'_>, scope: &Scope) -> Option<Option<[Expression; 3]>> {
+    let item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
+    optional(item, |item| vector(item, Dimension::ACCELERATION, "a component of gravity", scope))
 }
 
 fn vector(item: &Item<'_>, dimension: Dimension, what: &str, scope: &Scope) -> Option<[Expression; 3]> {

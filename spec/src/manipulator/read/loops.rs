@@ -37,14 +37,10 @@ pub(super) fn read_loops<'d>(
     if item.at_most(items.len(), MOST_LOOPS, "loops", help).is_none() {
         return loops;
     }
+    let mut known = Vec::new();
     for (index, item) in items.iter().enumerate() {
         let Some(mut section) = item.named(format!("loop {}", index + 1)) else { continue };
-        let first = |name: &str| {
-            let known = loops.iter().find(|other| other.name == name);
-            known.map(|other| other.section.span.clone())
-        };
-        let help = "rename one";
-        let name = read_title(&mut section, "loop", first, help).unwrap_or_default();
+        let name = read_title(&mut section, "loop", &mut known, "rename one").unwrap_or_default();
         section.check_keys(&[&keys::LOOP]);
         let frames = section.required("frames").and_then(|item| {
             let pair: [Item<'_>; 2] = item.entries("two names of frames")?;

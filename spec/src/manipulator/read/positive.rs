@@ -23,17 +23,16 @@ pub(super) fn check_signs(
     declarations: &Declarations,
     document: &Document,
 ) {
-    let check = Check { declarations };
     for effect in sources.iter().flat_map(|source| &source.effects) {
         match &effect.cause {
-            Cause::Beam(beam) => check.beam(beam, document),
-            Cause::Compliance(compliance) => check.compliance(compliance, document),
+            Cause::Beam(beam) => declarations.check_beam(beam, document),
+            Cause::Compliance(compliance) => declarations.check_compliance(compliance, document),
             Cause::Errors(_) => {}
         }
     }
     for deviation in sources.iter().flat_map(|source| &source.deviations) {
         if let DeviationCause::Stiffness(stiffness) = &deviation.cause
-            && let Some((_, label)) = check.least(stiffness).filter(|(least, _)| *least <= 0.0)
+            && let Some((_, label)) = declarations.least(stiffness).filter(|(least, _)| *least <= 0.0)
         {
             let help = "a stiff joint has a large stiffness; leave the source out if the joint is rigid";
             let mistake = Diagnostic::new(stiffness.span(), "`stiffness` of a joint must be positive");
@@ -41,16 +40,17 @@ pub(super) fn check_signs(
         }
     }
     for mass in loads.iter().filter_map(|load| load.mass.as_ref()) {
-        check.not_negative(mass, "the mass of a load", "write an upward load as a `force`", document);
+        declarations.check_not_negative(
+            mass,
+            "the mass of a load",
+            "write an upward load as a `force`",
+            document,
+        );
     }
 }
 
-struct Check<'a> {
-    declarations: &'a Declarations,
-}
-
-impl Check<'_> {
-    fn beam(&self, beam: &Beam, document: &Document) {
+impl Declarations {
+    fn check_beam(&self, beam: &Beam, document: &Document) {
         let bending = Beam::bending_keys(beam.axis).into_iter().zip(&beam.bending);
         let required = iter::once(("length", &beam.length)).chain(bending);
         let optional = [("GJ", &beam.torsion), ("EA", &beam.extension)];
@@ -69,7 +69,7 @@ impl Check<'_> {
             }
         }
         if let Some(mass) = &beam.mass_per_length {
-            self.not_negative(
+            self.check_not_negative(
                 mass,
                 "`mass_per_length`",
                 "leave it out if the weight of the beam does not matter",
@@ -80,12 +80,12 @@ impl Check<'_> {
 
     /// Checks that a compliance is positive semidefinite, because `wᵀ C w` is twice the energy: no
     /// diagonal entry and no pivot of a symmetric elimination is negative.
-    fn compliance(&self, compliance: &Compliance, document: &Document) {
+    fn check_compliance(&self, compliance: &Compliance, document: &Document) {
         for (i, row) in compliance.iter().enumerate() {
             if let Some(entry) = &row[i] {
                 let what = format!("the compliance of {}", Component::ALL[i].name());
                 let help = "the displacement under a load has the direction of the load; write 0 for a rigid direction";
-                if self.not_negative(entry, &what, help, document) {
+                if self.check_not_negative(entry, &what, help, document) {
                     return;
                 }
             }
@@ -112,7 +112,7 @@ impl Check<'_> {
     }
 
     /// Records a negative value; returns `true` if it is negative.
-    fn not_negative(&self, value: &Expression, what: &str, help: &str, document: &Document) -> bool {
+    fn check_not_negative(&self, value: &Expression, what: &str, help: &str, document: &Document) -> bool {
         let Some((_, label)) = self.least(value).filter(|(least, _)| *least < 0.0) else {
             return false;
         };
@@ -132,21 +132,21 @@ impl Check<'_> {
         }
         let at = |changed: Option<(usize, f64)>| {
             let value = |symbol| match (symbol, changed) {
-                (Symbol::Parameter(i), _) => self.declarations.parameters[i].value,
+                (Symbol::Parameter(i), _) => self.parameters[i].value,
                 (Symbol::Input(i), Some((input, end))) if i == input => end,
-                (Symbol::Input(i), _) => self.declarations.inputs[i].value,
+                (Symbol::Input(i), _) => self.inputs[i].value,
                 _ => f64::NAN,
             };
-            expression.value(&self.declarations.scope.tables, value)
+            expression.value(&self.scope.tables, value)
         };
         let dimension = expression.whole().dimension.unwrap_or(Dimension::NONE);
-        let unit = dimension.unit(self.declarations.scope.length.symbol());
+        let unit = dimension.unit(self.scope.length.symbol());
         let label = |value: f64, at: String| format!("{value} {unit} {at}").replace("  ", " ");
         let nominal = at(None);
         let mut least = (nominal, label(nominal, "with the nominal values".to_owned()));
         for symbol in expression.symbols() {
             let Symbol::Input(i) = symbol else { continue };
-            let input = &self.declarations.inputs[i];
+            let input = &self.inputs[i];
             for end in input.range.into_iter().filter(|end| end.is_finite()) {
                 let value = at(Some((i, end)));
                 if value < least.0 {

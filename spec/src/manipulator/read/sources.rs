@@ -29,24 +29,17 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>) -> Vec<Source> 
     if item.at_most(items.len(), MOST_SOURCES, "sources", help).is_none() {
         return sources;
     }
-    let mut spans: Vec<(String, crate::diagnostic::Span)> = Vec::new();
+    let mut known = Vec::new();
     for item in items {
         let Some(mut section) = item.named("this [[source]]") else { continue };
-        let first = |name: &str| {
-            let known = spans.iter().find(|(known, _)| known == name);
-            known.map(|(_, span)| span.clone())
-        };
         let help = "rename one, or give one source several [[source.effect]] tables";
-        match read_title(&mut section, "source", first, help) {
-            Some(name) => {
-                spans.push((name.clone(), section.span.clone()));
-                sources.extend(read_source(&section, name, chain));
-            }
+        match read_title(&mut section, "source", &mut known, help) {
+            Some(name) => sources.extend(read_source(&section, name, chain)),
             None => section.check_keys(&KNOWN),
         }
     }
     for part in parts_of_balls(&mut sources.clone()) {
-        if let Some((_, span)) = spans.iter().find(|(known, _)| *known == part.name) {
+        if let Some((_, span)) = known.iter().find(|(name, _)| *name == part.name) {
             let message = format!("\"{}\" is the name of a part of another source", part.name);
             root.document.mistake(Diagnostic::new(span.clone(), message).help("rename this source"));
         }

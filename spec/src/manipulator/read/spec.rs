@@ -131,11 +131,7 @@ fn read(root: &Section<'_>) -> Option<Spec> {
     }
     let sum_limits = read_sum_limits(root, &declarations);
     let loads = read_loads(root, tree, &declarations.scope);
-    let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
-    let gravity = match &gravity_item {
-        Some(item) => Some(read_gravity(item, &declarations.scope)?),
-        None => None,
-    };
+    let gravity = read_gravity(root, &declarations.scope)?;
     check_loaded(root, tree, &sources, &loads, &declarations.variables, gravity.is_some());
     check_signs(&sources, &loads, &declarations, root.document);
     let fitted = read_fitted(root, &declarations);
@@ -202,10 +198,9 @@ fn read_head(item: &Item<'_>) -> Option<Head> {
         Some(name)
     });
     let length = section.required("length").and_then(|item| item.choice(&LENGTHS));
-    let orientation = match section.get("orientation") {
-        None => Some(Orientation::RotationVector),
-        Some(item) => item.choice(&ORIENTATIONS),
-    };
+    let orientation = section.get("orientation");
+    let orientation =
+        orientation.map_or(Some(Orientation::RotationVector), |item| item.choice(&ORIENTATIONS));
     let title = section.optional_text("title");
     let description = section.optional_text("description");
     let reference = section.optional_text("reference");
@@ -241,15 +236,11 @@ fn read_frames<'d>(root: &Section<'d>, declarations: &mut Declarations) -> Optio
         "frames",
         "merge frames without errors: a transform can be a product",
     )?;
-    let mut frames: Vec<RawFrame<'d>> = Vec::new();
+    let (mut frames, mut known) = (Vec::new(), Vec::new());
     for (index, item) in items.iter().enumerate() {
         let Some(mut section) = item.named(format!("frame {}", index + 1)) else { continue };
-        let first = |name: &str| {
-            let known = frames.iter().find(|other| other.name == name);
-            known.map(|other| other.section.span.clone())
-        };
         let help = "rename one; sources refer to frames by name";
-        let name = read_title(&mut section, "frame", first, help).unwrap_or_default();
+        let name = read_title(&mut section, "frame", &mut known, help).unwrap_or_default();
         section.check_keys(&[&keys::FRAME, &keys::DESCRIBED, &keys::TRANSFORM]);
         let variable = section.get("variable");
         let own = variable.as_ref().and_then(|item| declarations.read_variable(index, item));

@@ -40,19 +40,10 @@ impl Declarations {
         let description = section.optional_text("description");
         section.optional_text("reference");
         let interpolation = section.required("interpolation").and_then(|item| item.choice(&INTERPOLATIONS));
-        let outside = match section.get("outside") {
-            None => Some(Extrapolation::Nothing),
-            Some(item) => item.choice(&OUTSIDE),
-        };
-        let file = section.get("file");
-        let columns = match &file {
-            Some(item) => Some(Columns::read(item)?),
-            None => None,
-        };
-        let axes = ["x", "y"].map(|key| {
-            let item = section.required(key)?;
-            self.read_axis(&item, columns.as_ref())
-        });
+        let outside = section.get("outside");
+        let outside = outside.map_or(Some(Extrapolation::Nothing), |item| item.choice(&OUTSIDE));
+        let columns = section.get("file").map_or(Some(None), |item| Columns::read(&item).map(Some))?;
+        let axes = ["x", "y"].map(|key| self.read_axis(&section.required(key)?, columns.as_ref()));
         let [Some(x), Some(y)] = axes else { return None };
         let dimensions = [x.dimension, y.dimension];
         let points = Points { x: x.values, y: y.values, places: x.places, columns: columns.as_ref() };

@@ -17,7 +17,7 @@ pub trait Merge: Default {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Bins<T> {
     finest: i32,
-    exponent: i32,
+    pub(super) exponent: i32,
     most: usize,
     bins: BTreeMap<i64, T>,
 }
@@ -77,12 +77,8 @@ impl<T: Merge> Bins<T> {
 
     /// Merges other bins that have the same smallest width.
     pub fn merge(&mut self, mut other: Self) {
-        while self.exponent < other.exponent {
-            self.double();
-        }
-        while other.exponent < self.exponent {
-            other.double();
-        }
+        self.widen(other.exponent);
+        other.widen(self.exponent);
         for (key, content) in other.bins {
             self.bins.entry(key).or_default().merge(content);
         }
@@ -96,17 +92,6 @@ impl<T: Merge> Bins<T> {
         while self.exponent < exponent {
             self.double();
         }
-    }
-
-    /// Returns the exponent of the width, a power of 2.
-    pub fn exponent(&self) -> i32 {
-        self.exponent
-    }
-
-    /// Returns true if the bins are wider than the smallest width, so that different values may
-    /// share one.
-    pub fn are_wide(&self) -> bool {
-        self.exponent > self.finest
     }
 
     fn width(&self) -> f64 {

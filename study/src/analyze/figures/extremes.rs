@@ -114,7 +114,8 @@ impl Envelope {
 
     /// Creates the envelope from the filled bins.
     pub(super) fn new(mut bins: Bins<Extremes>) -> Self {
-        if bins.are_wide() {
+        // Wide bins may hold several values.
+        if bins.exponent > FINEST {
             bins.span_at_most(Self::TOGETHER);
         }
         Self(bins)
@@ -156,7 +157,7 @@ impl Grid {
 
     /// Returns the mesh of both travels; a cell is `None` where no configuration fell.
     pub(super) fn mesh(self) -> Mesh {
-        let exponents = self.0.iter().map(|(_, line)| line.bins.exponent());
+        let exponents = self.0.iter().map(|(_, line)| line.bins.exponent);
         let exponent = exponents.max().unwrap_or(FINEST);
         let mut columns = Bins::<Range>::new(FINEST, usize::MAX);
         columns.widen(exponent);

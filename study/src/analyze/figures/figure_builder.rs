@@ -25,7 +25,7 @@ pub(in crate::analyze) enum PartialFigure {
 impl PartialFigure {
     /// Appends the data of the configurations that follow, possibly from a file. Returns false if
     /// they do not fit.
-    fn append(&mut self, other: Self) -> bool {
+    pub(super) fn append(&mut self, other: Self) -> bool {
         match (self, other) {
             (Self::Travel(here), Self::Travel(other)) if here.accepts(&other) => here.merge(other),
             (Self::Surface(here), Self::Surface(other)) if here.accepts(&other) => here.merge(other),
@@ -53,7 +53,7 @@ pub(super) struct FigureBuilder<'a> {
     /// The figure shows a single random source.
     random: bool,
     parts: ErrorParts,
-    data: PartialFigure,
+    pub(super) data: PartialFigure,
 }
 
 impl<'a> FigureBuilder<'a> {
@@ -98,16 +98,6 @@ impl<'a> FigureBuilder<'a> {
             }
             _ => {}
         }
-    }
-
-    /// Returns the data gathered so far.
-    pub(super) fn data(self) -> PartialFigure {
-        self.data
-    }
-
-    /// Appends the data that follow. Returns false if they belong to another kind of figure.
-    pub(super) fn append(&mut self, other: PartialFigure) -> bool {
-        self.data.append(other)
     }
 
     fn errors(&self, row: &Row) -> Errors {

@@ -44,13 +44,13 @@ impl<'a> FiguresBuilder<'a> {
 
     /// Returns the data gathered so far, one entry per figure.
     pub(in crate::analyze) fn data(self) -> Vec<PartialFigure> {
-        self.figures.into_iter().map(FigureBuilder::data).collect()
+        self.figures.into_iter().map(|builder| builder.data).collect()
     }
 
     /// Appends the data that follow. Returns false if they belong to other figures.
     pub(in crate::analyze) fn append(&mut self, data: Vec<PartialFigure>) -> bool {
         let as_many = self.figures.len() == data.len();
-        as_many && self.figures.iter_mut().zip(data).all(|(builder, data)| builder.append(data))
+        as_many && self.figures.iter_mut().zip(data).all(|(builder, data)| builder.data.append(data))
     }
 
     /// Sweeps the figures' own workspaces and returns the finished figures.

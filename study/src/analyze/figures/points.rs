@@ -21,7 +21,8 @@ pub struct Point {
 pub struct Points {
     /// Spacing of the kept indices: the smallest power of 2 that keeps the limit.
     stride: usize,
-    seen: usize,
+    /// Number of configurations that were seen.
+    pub seen: usize,
     /// Kept points.
     pub kept: Vec<Point>,
     /// Worst configuration of all, with its norm: repeatable + random.
@@ -73,11 +74,6 @@ impl Points {
             self.stride *= 2;
             self.kept.retain(|point| point.index.is_multiple_of(self.stride));
         }
-    }
-
-    /// Returns the number of configurations that were added.
-    pub fn total(&self) -> usize {
-        self.seen
     }
 }
 

@@ -91,26 +91,24 @@ impl Verdicts {
         compensated: Option<CompensatedVerdicts>,
     ) -> Option<Self> {
         let machine = if compensated.is_some() { study.judged } else { JudgedMachine::AsBuilt };
-        let counting = match (&compensated, machine) {
-            (Some(compensated), JudgedMachine::Compensated) => &compensated.verdicts,
-            _ => &as_built,
-        };
-        let verdict = counting.all().map(|one| one.verdict).max_by_key(|one| *one as u8)?;
         let permitted = study.unreachable * (reached + unreachable) as f64;
-        let unreachable = Some(unreachable).filter(|count| *count as f64 > permitted);
-        let verdict = unreachable.map_or(verdict, |_| Verdict::NotMet);
         let criterion = study.criterion;
         let is_random = matches!(criterion, Criterion::Probability | Criterion::Yield);
-        Some(Self {
-            verdict,
+        let mut verdicts = Self {
+            verdict: Verdict::NotMet,
             machine,
             criterion,
             probability_required: is_random.then_some(study.probability),
             yield_required: (criterion == Criterion::Yield).then_some(study.required_yield),
-            unreachable,
+            unreachable: Some(unreachable).filter(|count| *count as f64 > permitted),
             as_built,
             compensated,
-        })
+        };
+        let worst = verdicts.all().map(|one| one.verdict).max_by_key(|one| *one as u8)?;
+        if verdicts.unreachable.is_none() {
+            verdicts.verdict = worst;
+        }
+        Some(verdicts)
     }
 
     /// Returns the verdicts on the machine that counts.
