@@ -63,10 +63,6 @@ impl Columns {
                 separate cells by commas, semicolons or tabs";
             return fail(message, help);
         }
-        if !texts.is_empty() {
-            let texts: Vec<&str> = texts.iter().map(|place| heading[*place].as_str()).collect();
-            notes.note(&format!("text columns are ignored: {}", listed(&texts)));
-        }
         let is_whole = |row: &&Vec<f64>| !numeric.iter().any(|place| row[*place].is_nan());
         let whole: Vec<&Vec<f64>> = rows.iter().filter(is_whole).collect();
         let slip = numeric.iter().filter_map(|place| slips[*place].as_ref()).min_by_key(|(line, _)| line);
@@ -84,13 +80,10 @@ impl Columns {
             .unwrap_or_else(|| numeric[..count].to_vec());
         let rest: Vec<usize> = numeric.into_iter().filter(|place| !joints.contains(place)).collect();
         let pose = pose(&heading, &rest);
-        let ignored = rest.iter().filter(|place| !pose.contains(place)).map(|place| &*heading[*place]);
-        let ignored: Vec<&str> = ignored.collect();
+        let others = rest.iter().filter(|place| !pose.contains(place)).chain(&texts);
+        let ignored: Vec<&str> = others.map(|place| &*heading[*place]).collect();
         if !ignored.is_empty() {
-            notes.note(&format!(
-                "columns that are neither joints nor a pose are ignored: {}",
-                listed(&ignored)
-            ));
+            notes.note(&format!("columns beside joints and pose are ignored: {}", listed(&ignored)));
         }
         let step = whole.len().div_ceil(most).max(1);
         if step > 1 {

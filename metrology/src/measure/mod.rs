@@ -214,7 +214,7 @@ impl Measure {
         );
         let Figures { rms, configurations, standard_error, .. } = evaluated.norms;
         // Where base and tool explain them, a note on the rows says so.
-        if let Some(warning) = too_large(fitted.unwrap_or(rms), &setup) {
+        if let Some(warning) = too_large(fitted.unwrap_or(rms), &setup).and(too_large(rms, &setup)) {
             notes.warn(&warning);
         }
         let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, repeatable, .. } =

@@ -88,14 +88,15 @@ pub(super) fn finding(
 ) -> Option<Finding> {
     let times: Vec<f64> = checks.list.iter().map(|check| check.time).collect();
     let candidate = |error| candidate(error, numbers, &times);
-    let mut all: Vec<Candidate> = errors.list.iter().filter_map(candidate).collect();
-    all.sort_by(|a, b| b.explained.total_cmp(&a.explained));
-    let best = all.first()?;
-    let Candidate { error, change, values, .. } = best;
+    let all: Vec<Candidate> = errors.list.iter().filter_map(candidate).collect();
+    let best = all.iter().max_by(|a, b| a.explained.total_cmp(&b.explained))?;
     let behind = |other: &Candidate| {
         (best.explained - other.explained) / (2.0 * best.scatter * best.scatter).max(1e-300)
     };
-    let as_well: Vec<&Candidate> = all[1..].iter().filter(|other| behind(other) < EQUALLY_GOOD).collect();
+    // Of equally good ones, the first in the order of the errors: zeros of joints before others.
+    let mut good = all.iter().filter(|other| behind(other) < EQUALLY_GOOD);
+    let Candidate { error, change, values, .. } = good.next()?;
+    let as_well: Vec<&Candidate> = good.collect();
     let show = |time: f64| checks.calendar.show(time);
     let last = *times.last()?;
     let away = values.iter().zip(&times).map(|(value, time)| ((value - change.level).abs(), *time));

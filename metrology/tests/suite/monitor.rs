@@ -223,6 +223,8 @@ fn the_drifting_error_is_identified() {
                 || alike.flat_map(|chart| &chart.indistinguishable).any(|other| other == name),
         );
         assert_eq!(finding.kind, "drift");
+        let is_zero = |name: &String| name.starts_with("zero of");
+        assert!(is_zero(&finding.name) || !finding.as_well.iter().any(is_zero), "{finding:?}");
         let [first, last] = finding.between;
         dated += u64::from(first.is_none_or(|first| first <= 60.0) && last.is_some_and(|last| last >= 60.0));
         let micrometres = finding.size.abs() * finding.effect * 1e3;

@@ -123,17 +123,20 @@ fn facts(machine: &Description, report: &Report) -> Vec<(&'static str, String)> 
 
 fn cards(spec: &Spec, report: &Report) -> Vec<Card> {
     let (factor, unit) = error_unit(report.length);
-    let card = |name, size: &NormStatistics| Card {
+    let card = |name, size: &NormStatistics, known: &str| Card {
         name,
         value: format!("{} {unit}", visible(factor * size.mean, 4)),
-        note: format!("mean; maximum {} {unit}", visible(factor * size.max, 4)),
+        note: format!("mean; maximum {} {unit}{known}", visible(factor * size.max, 4)),
     };
+    let known =
+        report.deviation.map(|sigma| format!("; known to {} {unit} (1 σ)", visible(factor * sigma, 4)));
+    let corrected = card("Corrected", &report.after, &known.unwrap_or_default());
     let tolerance = Card {
         name: "Tolerance",
         value: length(report.tolerance, spec.length),
         note: "largest error allowed at the tool point".to_owned(),
     };
-    vec![card("As commanded", &report.before), card("Corrected", &report.after), tolerance]
+    vec![card("As commanded", &report.before, ""), corrected, tolerance]
 }
 
 /// States what corrected means, and what corrections cover.

@@ -28,7 +28,7 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report) -> Document {
         ),
     };
     let (points, instruments) = match report.instruments.is_empty() {
-        true => (Some(points(report)), None),
+        true => (Some(points(report, map.is_corrected)), None),
         false => (None, Some(instruments(report))),
     };
     let mut first = Section::answer();
@@ -42,7 +42,7 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report) -> Document {
         panel: "Errors at a configuration",
         sections: vec![
             first.facts(facts(report)),
-            Section::page("").cards(cards(report)),
+            Section::page("").cards(cards(report, map.is_corrected)),
             Section::page("Figures").figures(measured::scenes(report, spec)),
             rule(report),
             fitted(report),
@@ -58,10 +58,15 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report) -> Document {
     }
 }
 
-/// Tabulates the error of the measured points, and what the spec leaves of it.
-fn points(report: &Report) -> Table {
+/// Tabulates the error of the measured points, and what the spec leaves of it: with corrected
+/// commands, how far they are from where the program meant.
+fn points(report: &Report, is_corrected: bool) -> Table {
     let (lengths, length) = error_unit(report.length);
-    let columns = ["measured − ideal", ">mean", ">rms", ">max", ">3 σ", ""];
+    let (title, left) = match is_corrected {
+        true => ("measured − ideal at these commands", "norm from what the program meant"),
+        false => ("measured − ideal", "norm after the spec's errors"),
+    };
+    let columns = [title, ">mean", ">rms", ">max", ">3 σ", ""];
     let mut table = Table::new("", columns).rows(report.errors.iter().map(|size| {
         let (factor, unit) = if size.unit == "rad" { (1e3, "mrad") } else { (lengths, length) };
         let [mean, rms, max, sigma] =
@@ -74,8 +79,7 @@ fn points(report: &Report) -> Table {
     if explained.repeatable > 0 {
         let [mean, rms, max] = [explained.left_mean, explained.left_rms, explained.left_max]
             .map(|value| fixed(lengths * value, 4));
-        let name = "norm after the spec's errors".to_owned();
-        table.row([name, mean, rms, max, String::new(), length.to_owned()]);
+        table.row([left.to_owned(), mean, rms, max, String::new(), length.to_owned()]);
     }
     table
 }
@@ -159,16 +163,16 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     facts
 }
 
-fn cards(report: &Report) -> Vec<Card> {
+fn cards(report: &Report, is_corrected: bool) -> Vec<Card> {
+    let explained = &report.explained;
     let norm = report.errors.iter().find(|size| size.name == "norm");
-    let norms = norm.into_iter().flat_map(|norm| {
-        [("Mean error", norm.mean), ("Root mean square", norm.rms), ("Largest error", norm.max)]
+    let values = norm.into_iter().flat_map(|norm| match is_corrected {
+        true => [explained.left_mean, explained.left_rms, explained.left_max],
+        false => [norm.mean, norm.rms, norm.max],
     });
-    let norms = norms.map(|(name, value)| Card {
-        name,
-        value: show(report, value),
-        note: "measured − ideal".to_owned(),
-    });
+    let note = if is_corrected { "from what the program meant" } else { "measured − ideal" };
+    let card = |(name, value)| Card { name, value: show(report, value), note: note.to_owned() };
+    let norms = ["Mean error", "Root mean square", "Largest error"].into_iter().zip(values).map(card);
     let rows = Card {
         name: "Rows",
         value: report.rows.to_string(),

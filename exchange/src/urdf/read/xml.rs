@@ -132,7 +132,7 @@ fn kind(node: Node<'_, '_>, document: &Document) -> Option<JointKind> {
     found.map(|(_, kind)| kind).or_else(|| {
         let names = JointKind::ALL.map(|(name, _)| name).join(", ");
         let message = format!("unknown joint type `{}`", attribute.value().escape_debug());
-        document.refuse(attribute.range_value(), message, &format!("the types are {names}"))
+        document.refuse(attribute.range_value(), message, format!("the types are {names}"))
     })
 }
 
@@ -140,7 +140,7 @@ fn kind(node: Node<'_, '_>, document: &Document) -> Option<JointKind> {
 fn end(node: Node<'_, '_>, tag: &str, document: &Document) -> Option<Named> {
     let Some(end) = child(node, tag) else {
         let message = format!("this joint has no <{tag}>");
-        return document.refuse(start_of(node), message, &format!("name the link: <{tag} link=\"…\"/>"));
+        return document.refuse(start_of(node), message, format!("name the link: <{tag} link=\"…\"/>"));
     };
     let link = attribute(end, "link", document)?;
     Some(Named { name: link.value().to_owned(), span: link.range_value() })
@@ -232,7 +232,7 @@ fn name(node: Node<'_, '_>, document: &Document) -> Option<String> {
 fn attribute<'a, 'i>(node: Node<'a, 'i>, key: &str, document: &Document) -> Option<Attribute<'a, 'i>> {
     node.attribute_node(key).or_else(|| {
         let message = format!("this <{}> has no `{key}`", node.tag_name().name());
-        document.refuse(start_of(node), message, &format!("add {key}=\"…\""))
+        document.refuse(start_of(node), message, format!("add {key}=\"…\""))
     })
 }
 
