@@ -25,7 +25,7 @@ pub use reach::{
     InverseKinematics, Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle,
 };
 pub use workspace::{
-    Axis, BaseBox, JointGrid, JointSamples, Legs, Listed, One, PlatformGrid, Presentation, PresentedVolume,
-    ReachedBox, STREAM, Show, Subset, ToolOrientation, Unreachable, WithInputs, Workspace, base_box,
-    joint_grid, joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
+    Axis, BaseBox, JointSamples, Legs, Presentation, ReachedBox, STREAM, Show, Subset, ToolOrientation,
+    Unreachable, WithInputs, Workspace, base_box, joint_grid, joint_samples, listed, one, platform_grid,
+    presented_volume, random_joint_samples, with_inputs,
 };

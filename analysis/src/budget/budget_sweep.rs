@@ -9,7 +9,7 @@ use super::{Budget, BudgetOptions, OrientationErrors, Watch};
 use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
 use crate::{Measurand, ReachError, Subset, Workspace};
 use abbe_core::lanes::{InstructionSet, Kernel, Register, Sweepable};
-use abbe_kinematics::One;
+use abbe_kinematics::one;
 
 /// Smallest and largest number of configurations from which the ellipsoid is
 /// initialized, about one of 256.
@@ -74,7 +74,7 @@ impl<'a> BudgetSweep<'a> {
     ) -> Result<Self, Unevaluated> {
         ready(manipulator, workspace)?;
         let (mut home, mut oriented_at_home) = (Vec::new(), true);
-        let unreached = sweep(manipulator, &One(workspace.home()), &mut |row| {
+        let unreached = sweep(manipulator, &one(workspace.home()), &mut |row| {
             home.extend_from_slice(row.sources);
             oriented_at_home = row.oriented;
         });

@@ -4,7 +4,7 @@ use super::Quantile;
 use crate::sweep::in_order;
 use crate::{Configuration, Ellipsoid, ErrorParts, Measurand, Sweepable, Unevaluated, covariance, sweep};
 use abbe_core::{Error, Pose, deviation, drawn_pose, repeatable_magnitudes};
-use abbe_kinematics::One;
+use abbe_kinematics::one;
 use abbe_kinematics::sampling::{norm, stream};
 
 /// Number of draws per stream of random numbers and per block.
@@ -56,7 +56,7 @@ pub fn monte_carlo(
     let description = manipulator.description();
     let mut first_order = [[0.0; 3]; 3];
     let mut ideal = Pose::IDENTITY;
-    sweep(manipulator, &One(configuration), &mut |row| {
+    sweep(manipulator, &one(configuration), &mut |row| {
         first_order = covariance(&description.sources, row.sources, Measurand::Position);
         ideal = row.pose;
     })

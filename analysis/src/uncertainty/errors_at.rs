@@ -8,7 +8,7 @@ use crate::sweep::sweep;
 use crate::{Configuration, Measurand, Unevaluated};
 use abbe_core::lanes::Sweepable;
 use abbe_core::{Class, Description, Distribution, Error};
-use abbe_kinematics::One;
+use abbe_kinematics::one;
 use abbe_kinematics::sampling::{draw_parts, norm};
 
 /// Errors of every source at one configuration, to first order.
@@ -29,7 +29,7 @@ pub fn errors_at<'a>(
 ) -> Result<ErrorsAt<'a>, Error> {
     let description = manipulator.description();
     let mut sources = Vec::new();
-    sweep(manipulator, &One(configuration), &mut |row| sources.extend_from_slice(row.sources))
+    sweep(manipulator, &one(configuration), &mut |row| sources.extend_from_slice(row.sources))
         .map_err(|Unevaluated { error, .. }| error)?;
     let mut effects = vec![0.0; description.effects.len()];
     manipulator.effects(&configuration.q, &configuration.s, &configuration.u, &mut effects)?;

@@ -80,55 +80,16 @@ pub trait Workspace: Sync {
     }
 }
 
-/// Workspace of a single configuration.
-#[derive(Debug)]
-pub struct One<'a>(pub &'a Configuration);
+/// Workspace whose configurations a function fills in by index, beginning at home.
+pub(super) struct Indexed<F> {
+    pub(super) home: Configuration,
+    pub(super) count: usize,
+    pub(super) fill: F,
+}
 
-impl Workspace for One<'_> {
+impl<F: Fn(usize, &mut Configuration) -> Result<(), ReachError> + Sync> Workspace for Indexed<F> {
     fn len(&self) -> usize {
-        1
-    }
-
-    fn home(&self) -> &Configuration {
-        self.0
-    }
-
-    fn fill(&self, _: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
-        configuration.copy_from(self.0);
-        Ok(())
-    }
-}
-
-/// Workspace of a list of configurations, such as a path; see [`listed`].
-#[derive(Clone, Debug)]
-pub struct Listed {
-    home: Configuration,
-    configurations: Vec<Configuration>,
-    limits: Vec<[f64; 2]>,
-    sums: SumLimits,
-}
-
-/// Creates the workspace of a list of configurations. Those with a variable outside its limits
-/// count as unreachable.
-///
-/// Returns [`Error::Count`] if a configuration has a wrong number of variables, parameters or
-/// inputs.
-pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>) -> Result<Listed, Error> {
-    let description = manipulator.description();
-    let home = Configuration::home(description);
-    for Configuration { q, s, u } in &configurations {
-        checks::length(Quantity::Variables, [home.q.len(), 1], q.len())?;
-        checks::length(Quantity::Parameters, [home.s.len(), 1], s.len())?;
-        checks::length(Quantity::Inputs, [home.u.len(), 1], u.len())?;
-    }
-    let limits = description.variables.iter().map(|variable| variable.limits).collect();
-    let sums = SumLimits::new(description, &[]);
-    Ok(Listed { home, configurations, limits, sums })
-}
-
-impl Workspace for Listed {
-    fn len(&self) -> usize {
-        self.configurations.len()
+        self.count
     }
 
     fn home(&self) -> &Configuration {
@@ -136,16 +97,48 @@ impl Workspace for Listed {
     }
 
     fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
-        configuration.copy_from(self.configurations.get(index).unwrap_or(&self.home));
+        configuration.copy_from(&self.home);
+        (self.fill)(index, configuration)
+    }
+}
+
+/// Creates the workspace of a single configuration.
+pub fn one(configuration: &Configuration) -> impl Workspace + use<> {
+    let fill = |_: usize, _: &mut Configuration| Ok(());
+    Indexed { home: configuration.clone(), count: 1, fill }
+}
+
+/// Creates the workspace of a list of configurations. Those with a variable outside its limits
+/// count as unreachable.
+///
+/// Returns [`Error::Count`] if a configuration has a wrong number of variables, parameters or
+/// inputs.
+pub fn listed(
+    manipulator: &dyn Manipulator,
+    configurations: Vec<Configuration>,
+) -> Result<impl Workspace + use<>, Error> {
+    let description = manipulator.description();
+    let home = Configuration::home(description);
+    for Configuration { q, s, u } in &configurations {
+        checks::length(Quantity::Variables, [home.q.len(), 1], q.len())?;
+        checks::length(Quantity::Parameters, [home.s.len(), 1], s.len())?;
+        checks::length(Quantity::Inputs, [home.u.len(), 1], u.len())?;
+    }
+    let limits: Vec<[f64; 2]> = description.variables.iter().map(|variable| variable.limits).collect();
+    let sums = SumLimits::new(description, &[]);
+    let count = configurations.len();
+    let fill = move |index: usize, configuration: &mut Configuration| {
+        configurations.get(index).into_iter().for_each(|listed| configuration.copy_from(listed));
         let q = &configuration.q;
         let outside = |(value, [lower, upper]): (&f64, &[f64; 2])| value < lower || value > upper;
-        match q.iter().zip(&self.limits).position(outside) {
+        match q.iter().zip(&limits).position(outside) {
             Some(variable) => {
-                Err(ReachError::OutsideLimits { variable, value: q[variable], limits: self.limits[variable] })
+                Err(ReachError::OutsideLimits { variable, value: q[variable], limits: limits[variable] })
             }
-            None => self.sums.check(q),
+            None => sums.check(q),
         }
-    }
+    };
+    Ok(Indexed { home, count, fill })
 }
 
 /// `1/φ`: its multiples modulo 1 are evenly spread, and align with no grid.

@@ -10,47 +10,29 @@ use std::sync::Arc;
 use abbe_core::{Error, Manipulator, Quantity};
 
 use super::Workspace;
+use super::configurations::Indexed;
 use crate::configuration::in_range;
 use crate::{Configuration, ReachError, SumLimits};
-
-/// Workspace of a grid of joint variables; see [`joint_grid`].
-#[derive(Clone, Debug)]
-pub struct JointGrid {
-    home: Configuration,
-    axes: Vec<Axis>,
-    sums: SumLimits,
-}
 
 /// Creates the workspace of every combination of the values of some variables, the last one
 /// fastest. The other variables stay at home, or follow those where a sum is fixed.
 ///
 /// Parameters and inputs are nominal; [`with_inputs`](super::with_inputs) varies the inputs.
 /// Returns [`Error::Count`] if an axis has an invalid index.
-pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<JointGrid, Error> {
+pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<impl Workspace + use<>, Error> {
     let description = manipulator.description();
     let indices = axes.iter().map(|axis| axis.index);
     in_range(indices, Quantity::Variables, description.variables.len())?;
     let named = |i: &usize| axes.iter().any(|axis| axis.index == *i);
     let others: Vec<usize> = (0..description.variables.len()).rev().filter(|i| !named(i)).collect();
-    let sums = SumLimits::new(description, &others);
-    Ok(JointGrid { home: Configuration::home(description), axes: axes.to_vec(), sums })
-}
-
-impl Workspace for JointGrid {
-    fn len(&self) -> usize {
-        combinations(&self.axes)
-    }
-
-    fn home(&self) -> &Configuration {
-        &self.home
-    }
-
-    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
-        configuration.copy_from(&self.home);
-        combine(index, &self.axes, &mut configuration.q);
-        self.sums.lead(&mut configuration.q);
-        self.sums.check(&configuration.q)
-    }
+    let (axes, sums) = (axes.to_vec(), SumLimits::new(description, &others));
+    let count = combinations(&axes);
+    let fill = move |index: usize, configuration: &mut Configuration| {
+        combine(index, &axes, &mut configuration.q);
+        sums.lead(&mut configuration.q);
+        sums.check(&configuration.q)
+    };
+    Ok(Indexed { home: Configuration::home(description), count, fill })
 }
 
 /// Values of one variable, parameter or input along an axis of a grid.
@@ -92,16 +74,6 @@ impl fmt::Debug for Legs {
     }
 }
 
-/// Workspace of a grid of passive variables; see [`platform_grid`].
-pub struct PlatformGrid<'a> {
-    manipulator: &'a dyn Manipulator,
-    home: Configuration,
-    /// Passive variables where the loops close at home.
-    passive: Vec<f64>,
-    axes: Vec<Axis>,
-    legs: Legs,
-}
-
 /// Creates the workspace of every combination of the values of some passive variables, the last one
 /// fastest. The others stay where they are at home, and `legs` gives the joint variables.
 ///
@@ -113,33 +85,20 @@ pub fn platform_grid<'a>(
     manipulator: &'a dyn Manipulator,
     axes: &[Axis],
     legs: Legs,
-) -> Result<PlatformGrid<'a>, Error> {
+) -> Result<impl Workspace + use<'a>, Error> {
     let description = manipulator.description();
+    // Passive variables where the loops close at home.
     let mut passive = vec![0.0; description.passive().count()];
     in_range(axes.iter().map(|axis| axis.index), Quantity::Passive, passive.len())?;
     let home = Configuration::home(description);
     manipulator.passive(&home.q, &home.s, &mut passive)?;
-    Ok(PlatformGrid { manipulator, home, passive, axes: axes.to_vec(), legs })
-}
-
-/// Largest difference of a passive variable, relative to 1 or its size, that is a rounding error.
-const SAME: f64 = 1e-6;
-
-impl Workspace for PlatformGrid<'_> {
-    fn len(&self) -> usize {
-        combinations(&self.axes)
-    }
-
-    fn home(&self) -> &Configuration {
-        &self.home
-    }
-
-    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
-        configuration.copy_from(&self.home);
-        let mut requested = self.passive.clone();
-        combine(index, &self.axes, &mut requested);
-        configuration.q = self.legs.0(&requested, &configuration.s);
-        let variables = &self.manipulator.description().variables;
+    let axes = axes.to_vec();
+    let count = combinations(&axes);
+    let fill = move |index: usize, configuration: &mut Configuration| {
+        let mut requested = passive.clone();
+        combine(index, &axes, &mut requested);
+        configuration.q = legs.0(&requested, &configuration.s);
+        let variables = &manipulator.description().variables;
         let beyond = |(variable, value): (usize, &f64)| {
             let [lower, upper] = variables[variable].limits;
             let by = (lower - value).max(value - upper);
@@ -150,11 +109,15 @@ impl Workspace for PlatformGrid<'_> {
             return Err(ReachError::OutsideLimits { variable, value, limits: variables[variable].limits });
         }
         let mut reached = requested.clone();
-        self.manipulator.passive(&configuration.q, &configuration.s, &mut reached)?;
+        manipulator.passive(&configuration.q, &configuration.s, &mut reached)?;
         let differs = |(a, b): (&f64, &f64)| (a - b).abs() > SAME * a.abs().max(1.0);
         match requested.iter().zip(&reached).any(differs) {
             true => Err(ReachError::Evaluation(Error::NotClosed)),
             false => Ok(()),
         }
-    }
+    };
+    Ok(Indexed { home, count, fill })
 }
+
+/// Largest difference of a passive variable, relative to 1 or its size, that is a rounding error.
+const SAME: f64 = 1e-6;

@@ -12,8 +12,8 @@ mod presented_volume;
 mod with_inputs;
 
 pub use base_box::{BaseBox, ReachedBox, ToolOrientation, base_box};
-pub use configurations::{Listed, One, Show, Subset, Unreachable, Workspace, listed};
-pub use grids::{Axis, JointGrid, Legs, PlatformGrid, joint_grid, platform_grid};
+pub use configurations::{Show, Subset, Unreachable, Workspace, listed, one};
+pub use grids::{Axis, Legs, joint_grid, platform_grid};
 pub use joint_samples::{JointSamples, STREAM, joint_samples, random_joint_samples};
-pub use presented_volume::{Presentation, PresentedVolume, presented_volume};
+pub use presented_volume::{Presentation, presented_volume};
 pub use with_inputs::{WithInputs, with_inputs};

@@ -1,9 +1,10 @@
 //! The paper's workspace: a volume of tool points, each presented at a fixed point of the room.
 
+use super::configurations::Indexed;
 use super::grids::{combinations, combine};
 use super::{Axis, Workspace};
 use crate::configuration::in_range;
-use crate::{Configuration, ReachError, Target, inverse, sampling};
+use crate::{Configuration, Target, inverse, sampling};
 use abbe_core::{Error, Manipulator, Quantity};
 
 /// Tool points, target point and approaches of a presented volume.
@@ -19,13 +20,6 @@ pub struct Presentation {
     pub solved: Vec<usize>,
 }
 
-/// Workspace of a presented volume; see [`presented_volume`].
-pub struct PresentedVolume<'a> {
-    manipulator: &'a dyn Manipulator,
-    presentation: Presentation,
-    home: Configuration,
-}
-
 /// Creates the workspace of every tool point in every approach, presented at one point of `F_0`.
 /// Approaches vary fastest.
 ///
@@ -35,9 +29,9 @@ pub struct PresentedVolume<'a> {
 pub fn presented_volume<'a>(
     manipulator: &'a dyn Manipulator,
     presentation: &Presentation,
-) -> Result<PresentedVolume<'a>, Error> {
+) -> Result<impl Workspace + use<'a>, Error> {
     let description = manipulator.description();
-    let Presentation { tool_points, approaches, solved, .. } = presentation;
+    let Presentation { point, tool_points, approaches, solved } = presentation.clone();
     let indices = approaches.iter().map(|axis| axis.index).chain(solved.iter().copied());
     in_range(indices, Quantity::Variables, description.variables.len())?;
     let indices = tool_points.iter().map(|axis| axis.index);
@@ -45,26 +39,13 @@ pub fn presented_volume<'a>(
 
     let home = Configuration::home(description);
     sampling::arm_length(manipulator, &home.s)?;
-    Ok(PresentedVolume { manipulator, presentation: presentation.clone(), home })
-}
-
-impl Workspace for PresentedVolume<'_> {
-    fn len(&self) -> usize {
-        combinations(&self.presentation.tool_points)
-            .saturating_mul(combinations(&self.presentation.approaches))
-    }
-
-    fn home(&self) -> &Configuration {
-        &self.home
-    }
-
-    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
-        let Presentation { point, tool_points, approaches, solved } = &self.presentation;
-        configuration.copy_from(&self.home);
-        let tool_point = combine(index, approaches, &mut configuration.q);
-        combine(tool_point, tool_points, &mut configuration.s);
+    let count = combinations(&tool_points).saturating_mul(combinations(&approaches));
+    let fill = move |index: usize, configuration: &mut Configuration| {
+        let tool_point = combine(index, &approaches, &mut configuration.q);
+        combine(tool_point, &tool_points, &mut configuration.s);
         let Configuration { q, s, .. } = &*configuration;
-        configuration.q = inverse(self.manipulator, s, q, solved, &Target::Point(*point))?;
+        configuration.q = inverse(manipulator, s, q, &solved, &Target::Point(point))?;
         Ok(())
-    }
+    };
+    Ok(Indexed { home, count, fill })
 }

@@ -161,7 +161,7 @@ macro_rules! checked_function {
                     $crate::checks::FlatArray::as_flat($argument),
                 )?;
             )+
-            $(let mut $result: $crate::function_array!($result: $crate::array_type) = $crate::checks::FlatArray::ZERO;)+
+            $(let mut $result: $crate::function_array!($result: $crate::array_type) = $crate::checks::Zeroable::zeroed();)+
             checked::$name($($argument,)+ $(&mut $result),+)?;
             Ok(($($crate::as_result!($result: $result)),+))
         }

@@ -1,10 +1,13 @@
 //! Checks of arguments and results that every manipulator makes, generated or interpreted.
 
+#[doc(hidden)]
+pub use bytemuck::Zeroable;
+
 use crate::{Description, Error, Input, MINIMUM_MARGIN, Quantity, Scalar};
 
 /// Returns the values of an argument as an array. Fails unless there are exactly as many, all
 /// finite, and inputs within their ranges.
-pub fn argument<'v, A: FlatArray>(
+pub fn argument<'v, A: FlatArray<f64>>(
     description: &Description,
     quantity: Quantity,
     values: Option<&&'v [f64]>,
@@ -16,7 +19,7 @@ pub fn argument<'v, A: FlatArray>(
 }
 
 /// Returns a result slice as an array. Fails unless it has exactly as many values.
-pub fn result<'v, A: FlatArray>(
+pub fn result<'v, A: FlatArray<f64>>(
     quantity: Quantity,
     values: Option<&'v mut &mut [f64]>,
 ) -> Result<&'v mut A, Error> {
@@ -31,75 +34,91 @@ pub fn given(description: &Description, quantity: Quantity, values: &[f64]) -> R
     if quantity == Quantity::Inputs { inputs(&description.inputs, values) } else { Ok(()) }
 }
 
-/// Array that a function takes or fills.
-pub trait FlatArray: Sized + 'static {
-    /// Array of zeros.
-    const ZERO: Self;
-
+/// Array of numbers that a function takes or fills. In a batch it has one row per number.
+pub trait FlatArray<T>: Sized {
     /// Number of rows, and of values in each: 6 in a column, 12 in a pose.
     const SHAPE: [usize; 2];
 
     /// Returns its numbers in memory order.
-    fn as_flat(&self) -> &[f64];
+    fn as_flat(&self) -> &[T];
 
     /// Returns numbers in memory order as an array, if there are as many.
-    fn from_flat(values: &[f64]) -> Option<&Self>;
+    fn from_flat(values: &[T]) -> Option<&Self>;
 
     /// Returns numbers in memory order as an array, if there are as many.
-    fn from_flat_mut(values: &mut [f64]) -> Option<&mut Self>;
+    fn from_flat_mut(values: &mut [T]) -> Option<&mut Self>;
+
+    /// Splits the array off the first numbers of `rest`. Returns `None` if there are too few.
+    #[inline(always)]
+    fn take<'t>(rest: &mut &'t [T]) -> Option<&'t Self> {
+        let (values, others) = rest.split_at_checked(Self::SHAPE[0] * Self::SHAPE[1])?;
+        *rest = others;
+        Self::from_flat(values)
+    }
+
+    /// Splits a mutable array off the first numbers of `rest`. Returns `None` if there are too few.
+    #[inline(always)]
+    fn fill<'t>(rest: &mut &'t mut [T]) -> Option<&'t mut Self> {
+        let (values, others) = core::mem::take(rest).split_at_mut_checked(Self::SHAPE[0] * Self::SHAPE[1])?;
+        *rest = others;
+        Self::from_flat_mut(values)
+    }
 }
 
-impl<const N: usize> FlatArray for [f64; N] {
-    const ZERO: Self = [0.0; N];
+impl<T: Scalar, const N: usize> FlatArray<T> for [T; N] {
     const SHAPE: [usize; 2] = [N, 1];
 
-    fn as_flat(&self) -> &[f64] {
+    fn as_flat(&self) -> &[T] {
         self
     }
 
-    fn from_flat(values: &[f64]) -> Option<&Self> {
+    #[inline(always)]
+    fn from_flat(values: &[T]) -> Option<&Self> {
         values.try_into().ok()
     }
 
-    fn from_flat_mut(values: &mut [f64]) -> Option<&mut Self> {
+    #[inline(always)]
+    fn from_flat_mut(values: &mut [T]) -> Option<&mut Self> {
         values.try_into().ok()
     }
 }
 
-impl<const M: usize, const N: usize> FlatArray for [[f64; M]; N] {
-    const ZERO: Self = [[0.0; M]; N];
+impl<T: Scalar, const M: usize, const N: usize> FlatArray<T> for [[T; M]; N] {
     const SHAPE: [usize; 2] = [N, M];
 
-    fn as_flat(&self) -> &[f64] {
+    fn as_flat(&self) -> &[T] {
         self.as_flattened()
     }
 
-    fn from_flat(values: &[f64]) -> Option<&Self> {
+    #[inline(always)]
+    fn from_flat(values: &[T]) -> Option<&Self> {
         let (rows, rest) = values.as_chunks();
         rows.try_into().ok().filter(|_| rest.is_empty())
     }
 
-    fn from_flat_mut(values: &mut [f64]) -> Option<&mut Self> {
+    #[inline(always)]
+    fn from_flat_mut(values: &mut [T]) -> Option<&mut Self> {
         let (rows, rest) = values.as_chunks_mut();
         rows.try_into().ok().filter(|_| rest.is_empty())
     }
 }
 
-impl<const L: usize, const M: usize, const N: usize> FlatArray for [[[f64; L]; M]; N] {
-    const ZERO: Self = [[[0.0; L]; M]; N];
+impl<T: Scalar, const L: usize, const M: usize, const N: usize> FlatArray<T> for [[[T; L]; M]; N] {
     const SHAPE: [usize; 2] = [N, L * M];
 
-    fn as_flat(&self) -> &[f64] {
+    fn as_flat(&self) -> &[T] {
         self.as_flattened().as_flattened()
     }
 
-    fn from_flat(values: &[f64]) -> Option<&Self> {
+    #[inline(always)]
+    fn from_flat(values: &[T]) -> Option<&Self> {
         let (rows, rest) = values.as_chunks();
         let (planes, others) = rows.as_chunks();
         planes.try_into().ok().filter(|_| rest.is_empty() && others.is_empty())
     }
 
-    fn from_flat_mut(values: &mut [f64]) -> Option<&mut Self> {
+    #[inline(always)]
+    fn from_flat_mut(values: &mut [T]) -> Option<&mut Self> {
         let (rows, rest) = values.as_chunks_mut();
         let (planes, others) = rows.as_chunks_mut();
         planes.try_into().ok().filter(|_| rest.is_empty() && others.is_empty())
@@ -176,7 +195,7 @@ pub fn use_case(description: &Description, q: &[f64], s: &[f64], u: &[f64]) -> R
 }
 
 /// Returns the error of an array with another number of values.
-fn count<A: FlatArray>(quantity: Quantity, found: usize) -> Error {
+fn count<A: FlatArray<f64>>(quantity: Quantity, found: usize) -> Error {
     wrong_length(quantity, A::SHAPE, found)
 }
 

@@ -37,38 +37,26 @@ macro_rules! functions {
 crate::for_all_functions!(functions);
 
 macro_rules! list {
-    ($list:ident, $documentation:literal: $($function:ident = $name:ident $arguments:tt -> $results:tt
+    ($list:ident: $($function:ident = $name:ident $arguments:tt -> $results:tt
         $($oriented:ident)?: $text:literal $(, $note:literal)?;)+) => {
-        impl Function {
-            #[doc = $documentation]
-            pub const $list: [Self; [$(Self::$function),+].len()] = [$(Self::$function),+];
-        }
+        const $list: [Function; [$(Function::$function),+].len()] = [$(Function::$function),+];
     };
 }
 
-macro_rules! all {
-    (: $($entries:tt)+) => {
-        list!(ALL, "Functions of every manipulator, in the order of generated code.": $($entries)+);
-    };
-}
-
-macro_rules! of_inverse {
-    (: $($entries:tt)+) => {
-        list!(OF_INVERSE, "Functions that only manipulators have whose inverse kinematics has a closed form.": $($entries)+);
-    };
-}
-
-macro_rules! of_loops {
-    (: $($entries:tt)+) => {
-        list!(OF_LOOPS, "Functions that only manipulators with loops have.": $($entries)+);
-    };
-}
-
-crate::for_each_function!(all);
-crate::for_each_function_of_loops!(of_loops);
-crate::for_each_function_of_inverse!(of_inverse);
+crate::for_each_function!(list, ALL);
+crate::for_each_function_of_loops!(list, OF_LOOPS);
+crate::for_each_function_of_inverse!(list, OF_INVERSE);
 
 impl Function {
+    /// Functions of every manipulator, in the order of generated code.
+    pub const ALL: [Self; ALL.len()] = ALL;
+
+    /// Functions that only manipulators have whose inverse kinematics has a closed form.
+    pub const OF_INVERSE: [Self; OF_INVERSE.len()] = OF_INVERSE;
+
+    /// Functions that only manipulators with loops have.
+    pub const OF_LOOPS: [Self; OF_LOOPS.len()] = OF_LOOPS;
+
     /// Iterates over the functions of a manipulator, in the order of generated code: those that
     /// others call come first.
     pub fn all(description: &crate::Description) -> impl Iterator<Item = Self> + use<> {

@@ -313,13 +313,7 @@ macro_rules! function_array {
         )
     };
     (displacement: $($then:tt)+) => {
-        $($then)+!(
-            "displacement",
-            Displacement,
-            [f64; 6],
-            "length unit, rad",
-            "ΔX of the tool point in `F_0`, real minus ideal pose."
-        )
+        $crate::function_array!(deviation "displacement", "ΔX of the tool point in `F_0`, real minus ideal pose.": $($then)+)
     };
     (displacements: $($then:tt)+) => {
         $($then)+!(
@@ -349,31 +343,13 @@ macro_rules! function_array {
         )
     };
     (last: $($then:tt)+) => {
-        $($then)+!(
-            "last",
-            Corrections,
-            [f64; VARIABLES],
-            "length unit, rad",
-            "`correction` of the previous cycle; zeros at first."
-        )
+        $crate::function_array!(of_corrections "last", "`correction` of the previous cycle; zeros at first.": $($then)+)
     };
     (change: $($then:tt)+) => {
-        $($then)+!(
-            "change",
-            Corrections,
-            [f64; VARIABLES],
-            "length unit, rad",
-            "Largest change of each correction from `last`. A number that is not positive permits none."
-        )
+        $crate::function_array!(of_corrections "change", "Largest change of each correction from `last`. A number that is not positive permits none.": $($then)+)
     };
     (largest: $($then:tt)+) => {
-        $($then)+!(
-            "largest",
-            Corrections,
-            [f64; VARIABLES],
-            "length unit, rad",
-            "Largest size of each correction. A number that is not positive permits none."
-        )
+        $crate::function_array!(of_corrections "largest", "Largest size of each correction. A number that is not positive permits none.": $($then)+)
     };
     (rotations: $($then:tt)+) => {
         $($then)+!(
@@ -386,25 +362,19 @@ macro_rules! function_array {
         )
     };
     (correction: $($then:tt)+) => {
-        $($then)+!(
-            "correction",
-            Corrections,
-            [f64; VARIABLES],
-            "length unit, rad",
-            "`corrected` minus `q`, or minus its nearest value within the limits: `last` of the next cycle."
-        )
+        $crate::function_array!(of_corrections "correction", "`corrected` minus `q`, or minus its nearest value within the limits: `last` of the next cycle.": $($then)+)
     };
     (before: $($then:tt)+) => {
-        $($then)+!(
-            "before",
-            Displacement,
-            [f64; 6],
-            "length unit, rad",
-            "ΔX at `q`, real minus ideal pose: position of the tool point in `F_0`, then rotation vector."
-        )
+        $crate::function_array!(deviation "before", "ΔX at `q`, real minus ideal pose: position of the tool point in `F_0`, then rotation vector.": $($then)+)
     };
     (after: $($then:tt)+) => {
-        $($then)+!("after", Displacement, [f64; 6], "length unit, rad", "ΔX at `corrected`, in the form of `before`.")
+        $crate::function_array!(deviation "after", "ΔX at `corrected`, in the form of `before`.": $($then)+)
+    };
+    (of_corrections $name:literal, $documentation:literal: $($then:tt)+) => {
+        $($then)+!($name, Corrections, [f64; VARIABLES], "length unit, rad", $documentation)
+    };
+    (deviation $name:literal, $documentation:literal: $($then:tt)+) => {
+        $($then)+!($name, Displacement, [f64; 6], "length unit, rad", $documentation)
     };
 }
 

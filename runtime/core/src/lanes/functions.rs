@@ -11,8 +11,8 @@ macro_rules! evaluate_functions {
         impl $crate::lanes::Evaluate<$crate::lanes::$function> for $manipulator {
             #[inline(always)]
             fn evaluate_lanes<T: $crate::Scalar>(&self, mut arguments: &[T], mut results: &mut [T]) -> Option<()> {
-                $(let $argument = $crate::lanes::Rows::<T>::take(&mut arguments)?;)+
-                $(let $result = $crate::lanes::Rows::<T>::fill(&mut results)?;)+
+                $(let $argument = $crate::checks::FlatArray::<T>::take(&mut arguments)?;)+
+                $(let $result = $crate::checks::FlatArray::<T>::fill(&mut results)?;)+
                 $crate::lanes::put_margin::<T, _>(raw::$name::<T>($($argument,)+ $($result),+), results)
             }
         }

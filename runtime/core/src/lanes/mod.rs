@@ -46,7 +46,6 @@ mod one_by_one;
 #[cfg(any(test, not(target_arch = "x86_64")))]
 mod portable;
 mod register;
-mod rows;
 mod run;
 mod scalar;
 mod sweepable;
@@ -56,13 +55,12 @@ mod tiles;
 
 pub use functions::*;
 pub use instruction_set::{InstructionSet, Kernel};
-pub use one_by_one::OneByOne;
-pub use one_by_one::one_by_one;
+pub use one_by_one::{OneByOne, one_by_one};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use register::by_array;
 pub use register::{Lanes, Mask, Register};
 #[doc(hidden)]
-pub use rows::{Rows, put_margin};
+pub use run::put_margin;
 pub use run::{Evaluate, Named, check, run};
 pub use sweepable::Sweepable;
 pub use tiles::Tiles;

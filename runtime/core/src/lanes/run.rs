@@ -1,7 +1,8 @@
 //! Evaluation of a function of a manipulator over tiles.
 
 use super::{Kernel, Register, Tiles};
-use crate::{Description, Error, Function, Manipulator, Quantity, Scalar, checks};
+use crate::checks::{self, Margin};
+use crate::{Description, Error, Function, Manipulator, Quantity, Scalar};
 
 /// [`Function`] as a type, so that [`run`] compiles this function
 /// only.
@@ -80,4 +81,13 @@ pub fn check(
     checks::length(Quantity::Results, [signature.results_len(description), 1], results.rows())?;
     checks::length(Quantity::Configurations, [arguments.count(), 1], results.count())?;
     checks::length(Quantity::Lanes, [width(arguments), 1], width(results))
+}
+
+/// Writes the margin that a generated function returned behind its results, if it returned one.
+#[inline(always)]
+pub fn put_margin<T: Scalar, M: Margin<T>>(margin: M, rest: &mut [T]) -> Option<()> {
+    if let Some(cosine) = margin.cosine() {
+        *rest.first_mut()? = cosine;
+    }
+    Some(())
 }
