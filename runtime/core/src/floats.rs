@@ -1,11 +1,13 @@
 //! [`Scalar`] for `f64` and `f32`.
 
 use crate::sin_cos;
-#[cfg(not(target_arch = "x86_64"))]
-use crate::sin_cos::array::Array as Pair;
-#[cfg(target_arch = "x86_64")]
-use crate::x86::Sse2 as Pair;
 use crate::{LookupTable, Scalar};
+
+/// Register with two lanes that every machine of this architecture has.
+#[cfg(target_arch = "x86_64")]
+pub(crate) type Two = crate::x86::Sse2;
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) type Two = [f64; 2];
 
 macro_rules! scalar {
     ($float:ident, $sin_cos:expr $(, $each:ident)?; $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
@@ -21,7 +23,7 @@ macro_rules! scalar {
             $(
                 #[inline(always)]
                 fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-                    sin_cos::$each::<Pair, N>(angles)
+                    sin_cos::$each::<Two, N>(angles)
                 }
             )?
             $(

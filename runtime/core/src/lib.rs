@@ -23,6 +23,9 @@ mod manipulator;
 mod nalgebra_views;
 mod pose;
 mod quantity;
+// Without `lanes` only pairs of numbers use it.
+#[cfg_attr(not(feature = "lanes"), allow(dead_code, unreachable_pub))]
+mod register;
 mod scalar;
 mod shared;
 #[doc(hidden)]

@@ -5,10 +5,9 @@
 //! fdlibm (error below 2⁻⁵⁸), then the quadrant `n`. The error is below 1.7 ulp for `|x| ≤`
 //! `REACH`.
 
-#[cfg(any(test, not(target_arch = "x86_64")))]
-pub(crate) mod array;
-
 use core::ops::{Add, Mul, Sub};
+
+use crate::register::{Lanes, Register};
 
 /// Largest `|x|` for which [`near`] holds: beyond it the products of `n` with the parts of π/2 are
 /// not exact.
@@ -76,12 +75,43 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     fn shifted<const PLACES: u32>(self) -> Self;
 }
 
-/// Two numbers in one register.
-pub(crate) trait Pair: Real {
-    /// Combines two numbers.
-    fn new(numbers: [f64; 2]) -> Self;
-    /// Returns the two numbers.
-    fn numbers(self) -> [f64; 2];
+impl<R: Register> Real for Lanes<R> {
+    const FUSED: bool = R::FUSED;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self(R::splat(value))
+    }
+
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        Self(R::mul_add(self.0, b.0, c.0))
+    }
+
+    #[inline(always)]
+    fn times_from(self, b: Self, c: Self) -> Self {
+        Self(R::neg_mul_add(self.0, b.0, c.0))
+    }
+
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        Self(R::xor(self.0, other.0))
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(R::and(self.0, other.0))
+    }
+
+    #[inline(always)]
+    fn odd(self) -> Self {
+        Self(R::odd(self.0))
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(self) -> Self {
+        Self(R::shifted::<PLACES>(self.0))
+    }
 }
 
 impl Real for f64 {
@@ -144,7 +174,7 @@ pub(crate) fn scalar(x: f64) -> (f64, f64) {
 /// Returns sine and cosine of several `f64`, with the bits of [`scalar`]. Pairs of angles share
 /// instructions.
 #[inline(always)]
-pub(crate) fn each<P: Pair, const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
+pub(crate) fn each<R: Register, const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
     let mut all = true;
     for x in &angles {
         all &= x.abs() <= REACH;
@@ -156,8 +186,9 @@ pub(crate) fn each<P: Pair, const N: usize>(angles: [f64; N]) -> [(f64, f64); N]
     for i in (0..N).step_by(2) {
         // Two at a time; the last angle twice if the count is odd.
         let j = (i + 1).min(N - 1);
-        let (sines, cosines) = near(P::new([angles[i], angles[j]]));
-        let (sines, cosines) = (sines.numbers(), cosines.numbers());
+        let pair = [angles[i], angles[j]];
+        let (sines, cosines) = near(Lanes::<R>::from_fn(|lane| pair[lane]));
+        let (sines, cosines) = (sines.to_slice(), cosines.to_slice());
         results[j] = (sines[1], cosines[1]);
         results[i] = (sines[0], cosines[0]);
     }

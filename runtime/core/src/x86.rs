@@ -8,18 +8,13 @@
 #![allow(unsafe_code)]
 
 use core::arch::x86_64::*;
-use core::ops::{Add, Mul, Sub};
 
-#[cfg(feature = "lanes")]
 use bytemuck::{Pod, Zeroable};
 
-#[cfg(feature = "lanes")]
-use crate::lanes::{Register, by_array};
-use crate::sin_cos::{Pair, Real};
+use crate::register::{Register, by_array};
 
 /// Two lanes: SSE2.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "lanes", derive(Pod, Zeroable))]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
 pub(crate) struct Sse2(__m128d);
 
@@ -35,7 +30,6 @@ pub(crate) struct Avx2(__m256d);
 #[repr(transparent)]
 pub(crate) struct Avx512(__m512d);
 
-#[cfg(feature = "lanes")]
 macro_rules! instructions {
     ($($name:ident($($argument:ident),+) $instruction:expr;)+) => {$(
         #[inline(always)]
@@ -46,78 +40,6 @@ macro_rules! instructions {
     )+};
 }
 
-macro_rules! operator {
-    ($trait:ident::$name:ident $instruction:ident) => {
-        impl $trait for Sse2 {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $name(self, other: Self) -> Self {
-                // SAFETY: the CPU has the instruction, see the module documentation.
-                Self(unsafe { $instruction(self.0, other.0) })
-            }
-        }
-    };
-}
-
-operator!(Add::add _mm_add_pd);
-operator!(Sub::sub _mm_sub_pd);
-operator!(Mul::mul _mm_mul_pd);
-
-impl Real for Sse2 {
-    const FUSED: bool = false;
-
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self::new([value; 2])
-    }
-
-    #[inline(always)]
-    fn xor(self, other: Self) -> Self {
-        // SAFETY: the CPU has the instruction, see the module documentation.
-        Self(unsafe { _mm_xor_pd(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        // SAFETY: the CPU has the instruction, see the module documentation.
-        Self(unsafe { _mm_and_pd(self.0, other.0) })
-    }
-
-    #[inline(always)]
-    fn odd(self) -> Self {
-        // SAFETY: the CPU has the instructions, see the module documentation.
-        Self(unsafe {
-            let lowest = _mm_and_si128(_mm_castpd_si128(self.0), _mm_set1_epi64x(1));
-            _mm_castsi128_pd(_mm_sub_epi64(_mm_setzero_si128(), lowest))
-        })
-    }
-
-    #[inline(always)]
-    fn shifted<const PLACES: u32>(self) -> Self {
-        // SAFETY: the CPU has the instruction, see the module documentation.
-        Self(unsafe {
-            let places = _mm_cvtsi32_si128(PLACES as i32);
-            _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(self.0), places))
-        })
-    }
-}
-
-impl Pair for Sse2 {
-    #[inline(always)]
-    fn new([first, second]: [f64; 2]) -> Self {
-        // SAFETY: the CPU has the instruction, see the module documentation.
-        Self(unsafe { _mm_set_pd(second, first) })
-    }
-
-    #[inline(always)]
-    fn numbers(self) -> [f64; 2] {
-        // SAFETY: the CPU has the instructions, see the module documentation.
-        unsafe { [_mm_cvtsd_f64(self.0), _mm_cvtsd_f64(_mm_unpackhi_pd(self.0, self.0))] }
-    }
-}
-
-#[cfg(feature = "lanes")]
 impl Register for Sse2 {
     by_array!(2, fused: false);
 
@@ -137,16 +59,19 @@ impl Register for Sse2 {
         or(a, b) _mm_or_pd(a, b);
         and_not(a, b) _mm_andnot_pd(b, a);
         more_than(a, b) _mm_cmpgt_pd(a, b);
+        odd(a) _mm_castsi128_pd(_mm_sub_epi64(
+            _mm_setzero_si128(),
+            _mm_and_si128(_mm_castpd_si128(a), _mm_set1_epi64x(1)),
+        ));
     }
 
     #[inline(always)]
-    fn odd(a: Self) -> Self {
-        Real::odd(a)
-    }
-
-    #[inline(always)]
-    fn shifted<const PLACES: u32>(a: Self) -> Self {
-        Real::shifted::<PLACES>(a)
+    fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
+        // SAFETY: the CPU has the instructions, see the module documentation.
+        Self(unsafe {
+            let places = _mm_cvtsi32_si128(PLACES as i32);
+            _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(a), places))
+        })
     }
 }
 

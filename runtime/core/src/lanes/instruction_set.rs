@@ -7,12 +7,7 @@ use pulp::NullaryFnOnce;
 use pulp::x86::{V3, V4};
 
 use super::Register;
-
-/// Register with two lanes that every machine of this architecture has.
-#[cfg(target_arch = "x86_64")]
-type Two = crate::x86::Sse2;
-#[cfg(not(target_arch = "x86_64"))]
-type Two = [f64; 2];
+use crate::floats::Two;
 
 /// Computation on lanes, compiled for every instruction set.
 ///

@@ -43,9 +43,6 @@ mod arc_tangent;
 mod functions;
 mod instruction_set;
 mod one_by_one;
-#[cfg(any(test, not(target_arch = "x86_64")))]
-mod portable;
-mod register;
 mod run;
 mod scalar;
 mod sweepable;
@@ -53,12 +50,10 @@ mod sweepable;
 mod tests;
 mod tiles;
 
+pub use crate::register::{Lanes, Mask, Register};
 pub use functions::*;
 pub use instruction_set::{InstructionSet, Kernel};
 pub use one_by_one::{OneByOne, one_by_one};
-#[cfg(target_arch = "x86_64")]
-pub(crate) use register::by_array;
-pub use register::{Lanes, Mask, Register};
 #[doc(hidden)]
 pub use run::put_margin;
 pub use run::{Evaluate, Named, check, run};

@@ -1,7 +1,7 @@
 //! The number type of a batch: the functions of [`Scalar`] for lanes.
 
-use super::register::WIDEST;
 use super::{Lanes, Mask, Register, arc_tangent};
+use crate::register::WIDEST;
 use crate::scalar::ROUND;
 use crate::sin_cos;
 use crate::{LookupTable, Scalar};

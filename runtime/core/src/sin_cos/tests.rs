@@ -4,7 +4,6 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use dashu_float::{ConstCache, Context, FBig, round::mode::HalfEven};
 
-use super::array::Array;
 use super::{REACH, Real, beyond, each, near, scalar};
 
 type Exact = FBig<HalfEven, 2>;
@@ -235,7 +234,7 @@ fn many_together_have_the_bits_of_one_by_one() {
         let bits = |(s, c): (f64, f64)| (s.to_bits(), c.to_bits());
         let expected = angles.map(scalar).map(bits);
         assert_eq!(<f64 as crate::Scalar>::sin_cos_each(angles).map(bits), expected, "at {x:e}");
-        assert_eq!(each::<Array, 4>(angles).map(bits), expected, "at {x:e}");
+        assert_eq!(each::<[f64; 2], 4>(angles).map(bits), expected, "at {x:e}");
     }
 }
 

@@ -1,8 +1,8 @@
 //! Two lanes in an array, for machines without a register type here: the compiler finds their
 //! instructions for pairs (NEON).
 
-use super::Register;
-use super::register::by_array;
+use super::{Register, by_array};
+use crate::Scalar;
 
 macro_rules! lane_by_lane {
     ($($name:ident($($argument:ident),+) $value:expr;)+) => {$(
@@ -27,7 +27,7 @@ impl Register for [f64; 2] {
         mul_add(a, b, c) a * b + c;
         mul_sub(a, b, c) a * b - c;
         neg_mul_add(a, b, c) c - a * b;
-        sqrt(a) a.sqrt();
+        sqrt(a) Scalar::sqrt(a);
         min(a, b) if a < b { a } else { b };
         max(a, b) if a > b { a } else { b };
         xor(a, b) f64::from_bits(a.to_bits() ^ b.to_bits());

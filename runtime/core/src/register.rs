@@ -2,56 +2,19 @@
 //!
 //! Rare functions run lane by lane; the others are one instruction for all lanes.
 
+#[cfg(any(test, not(target_arch = "x86_64")))]
+mod portable;
+
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use bytemuck::{Pod, Zeroable};
 
 use crate::Scalar;
-use crate::sin_cos::Real;
-
-impl<R: Register> Real for Lanes<R> {
-    const FUSED: bool = R::FUSED;
-
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self(R::splat(value))
-    }
-
-    #[inline(always)]
-    fn times_plus(self, b: Self, c: Self) -> Self {
-        Self(R::mul_add(self.0, b.0, c.0))
-    }
-
-    #[inline(always)]
-    fn times_from(self, b: Self, c: Self) -> Self {
-        Self(R::neg_mul_add(self.0, b.0, c.0))
-    }
-
-    #[inline(always)]
-    fn xor(self, other: Self) -> Self {
-        Self(R::xor(self.0, other.0))
-    }
-
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Self(R::and(self.0, other.0))
-    }
-
-    #[inline(always)]
-    fn odd(self) -> Self {
-        Self(R::odd(self.0))
-    }
-
-    #[inline(always)]
-    fn shifted<const PLACES: u32>(self) -> Self {
-        Self(R::shifted::<PLACES>(self.0))
-    }
-}
 
 /// Largest number of lanes of a register.
-pub(super) const WIDEST: usize = 8;
+pub(crate) const WIDEST: usize = 8;
 
-/// SIMD register and its operations, one type per [`InstructionSet`](super::InstructionSet).
+/// SIMD register and its operations, one type per [`InstructionSet`](crate::lanes::InstructionSet).
 ///
 /// Each method applies the operation of its name to every lane. `mul_add`, `mul_sub` and
 /// `neg_mul_add` round once where the instruction set has fused operations.
@@ -147,13 +110,13 @@ pub(crate) use by_array;
 /// One number per lane: the [`Scalar`] of a batch.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
-pub struct Lanes<R>(pub(super) R)
+pub struct Lanes<R>(pub(crate) R)
 where
     R: Register;
 
 /// One truth value per lane: all bits of the lane, or none.
 #[derive(Clone, Copy, Debug)]
-pub struct Mask<R: Register>(pub(super) R);
+pub struct Mask<R: Register>(pub(crate) R);
 
 impl<R: Register> Lanes<R> {
     /// Number of lanes.
@@ -186,14 +149,14 @@ impl<R: Register> Lanes<R> {
     /// Returns sine and cosine, lane by lane.
     #[cold]
     #[inline(never)]
-    pub(super) fn far(self) -> (Self, Self) {
+    pub(crate) fn far(self) -> (Self, Self) {
         (self.map(|a| Scalar::sin_cos(a).0), self.map(|a| Scalar::sin_cos(a).1))
     }
 
     /// Returns the angle of the point (x, self), lane by lane.
     #[cold]
     #[inline(never)]
-    pub(super) fn far_atan2(self, x: Self) -> Self {
+    pub(crate) fn far_atan2(self, x: Self) -> Self {
         self.zip(x, Scalar::atan2)
     }
 
@@ -205,7 +168,7 @@ impl<R: Register> Lanes<R> {
 
     /// Returns the lanes that are not NaN.
     #[inline(always)]
-    pub(super) fn is_number(self) -> Mask<R> {
+    pub(crate) fn is_number(self) -> Mask<R> {
         let [least, zero] = [f64::NEG_INFINITY, 0.0].map(R::splat);
         Mask(R::or(R::more_than(self.0, least), R::more_than(zero, self.0)))
     }
