@@ -14,7 +14,6 @@ use super::frame_twist::FrameTwist;
 use super::local::Local;
 use super::symbol_jacobian::{Steps, twist};
 use super::tree;
-use super::walk::walk;
 use crate::graph::{Graph, Node, Op, Vector};
 
 /// Returns the twist of every frame that depends on a number of the chain. The tool's twist is
@@ -79,10 +78,7 @@ pub(super) fn local_twist(graph: &mut Graph, spec: &Spec, symbol: Symbol, frame:
 
 /// Adds the twist of the tool, which follows the errors of the last frame.
 fn add_tool(graph: &mut Graph, spec: &Spec, symbol: Symbol, last: &mut FrameTwist) {
-    let mut steps = Vec::new();
-    let start = graph.identity();
-    walk(graph, start, &spec.tool, &mut steps);
-    let steps = Steps::new(graph, steps);
+    let steps = Steps::of_transform(graph, &spec.tool);
     let origin = [graph.zero(); 3];
     let [velocity, rotation] = twist(graph, &steps, symbol, origin);
     last.velocity = graph.add_vectors(last.velocity, velocity);

@@ -238,9 +238,7 @@ impl<'a> Loads<'a> {
         let behind = |weight: &&Weight<'_>| {
             weight.effect.frame != frame && self.spec.carries(frame, weight.effect.frame)
         };
-        for weight in self.weights.iter().filter(behind) {
-            carried.push(weight.of_last(graph, weight.length));
-        }
+        carried.extend(self.weights.iter().filter(behind).map(|weight| weight.of_last(graph, weight.length)));
         carried
     }
 
@@ -343,10 +341,7 @@ fn add(graph: &mut Graph, a: [Node; 6], b: [Node; 6]) -> [Node; 6] {
 
 /// Returns `C w`.
 fn product(graph: &mut Graph, compliance: &Compliance, wrench: [Node; 6]) -> [Node; 6] {
-    compliance.map(|row| {
-        let products: Vec<Node> = row.iter().zip(wrench).map(|(c, w)| graph.mul(*c, w)).collect();
-        products.into_iter().fold(graph.zero(), |sum, product| graph.add(sum, product))
-    })
+    compliance.map(|row| graph.products(&row, &wrench))
 }
 
 /// Returns the index in ε of a motion along or about an axis. Axis numbers wrap at 3.

@@ -24,7 +24,6 @@ use super::accumulate::Links;
 use super::deviation::local_twist;
 use super::error_jacobian::Columns;
 use super::symbol_jacobian::{Steps, twist};
-use super::walk::walk;
 use crate::graph::{Frame, Graph, Vector};
 
 /// Number of frames, counted from `F_0`, whose axes are considered for all other frames.
@@ -208,9 +207,7 @@ impl<'l> EquivalentForms<'l> {
         let mut of_transform: IndexMap<Symbol, Vec<(usize, [Vector; 2])>> = IndexMap::new();
         let origin = [graph.zero(); 3];
         for (transform, factors) in factors.into_iter().enumerate() {
-            let (identity, mut steps) = (graph.identity(), Vec::new());
-            walk(graph, identity, factors, &mut steps);
-            let steps = Steps::new(graph, steps);
+            let steps = Steps::of_transform(graph, factors);
             for symbol in steps.symbols() {
                 let motion = twist(graph, &steps, symbol, origin);
                 of_transform.entry(symbol).or_default().push((transform, motion));

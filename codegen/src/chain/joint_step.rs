@@ -9,7 +9,7 @@ use super::accumulate::Links;
 use super::joint_columns::{
     JOINTS_OF_A_POINT, JOINTS_OF_A_POSE, at_origin, at_tool, errors_of_joints, units,
 };
-use super::minors::{products, solve};
+use super::minors::solve;
 use crate::graph::{Graph, Node};
 
 /// Effects of joints and errors on the tool, all at one frame and in its axes.
@@ -82,10 +82,10 @@ impl Equations {
         let rows: Vec<Vec<Node>> = (0..count)
             .map(|i| {
                 let own = row(&self.joints, i);
-                (0..count).map(|k| products(graph, &own, &row(&weighted, k))).collect()
+                (0..count).map(|k| graph.products(&own, &row(&weighted, k))).collect()
             })
             .collect();
         let multipliers = solve(graph, &rows, &back);
-        weighted.iter().map(|column| products(graph, column, &multipliers)).collect()
+        weighted.iter().map(|column| graph.products(column, &multipliers)).collect()
     }
 }

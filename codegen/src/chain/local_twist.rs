@@ -6,7 +6,6 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
 use super::symbol_jacobian::{Steps, twist};
-use super::walk::walk;
 use crate::graph::{Graph, Node};
 
 /// Velocity of the origin and rotation, in the axes before a transform, per unit of a symbol.
@@ -28,10 +27,7 @@ pub(super) fn local_twists(graph: &mut Graph, spec: &Spec, symbols: &[Symbol]) -
     let origin = [graph.zero(); 3];
     for (transform, factors) in spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]).enumerate()
     {
-        let mut steps = Vec::new();
-        let identity = graph.identity();
-        walk(graph, identity, factors, &mut steps);
-        let steps = Steps::new(graph, steps);
+        let steps = Steps::of_transform(graph, factors);
         let mut moved: Vec<usize> =
             steps.symbols().filter_map(|symbol| columns.get(&symbol).copied()).collect();
         moved.sort_unstable();

@@ -13,7 +13,6 @@ use super::accumulate::Links;
 use super::by_source::errors_by_source;
 use super::displacement::Displacement;
 use super::implicit::Implicit;
-use super::minors::products;
 use super::rows::Rows;
 use super::six::vectors;
 use super::sources;
@@ -252,7 +251,7 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], places: &[usize], most_
         vectors.iter().zip(places).filter(|(vector, _)| vector.iter().any(|entry| *entry != zero)).unzip();
     if let [vector] = vectors[..] {
         return Magnitude {
-            node: products(graph, vector, vector),
+            node: graph.products(vector, vector),
             squared: true,
             parts: vector.clone(),
             largest_of: Vec::new(),
@@ -262,7 +261,7 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], places: &[usize], most_
         return largest_pattern(graph, &vectors);
     }
     let unit = direction(graph, vectors.first().map_or(1, |vector| vector.len()));
-    let parts: Vec<Node> = vectors.into_iter().map(|vector| products(graph, vector, &unit)).collect();
+    let parts: Vec<Node> = vectors.into_iter().map(|vector| graph.products(vector, &unit)).collect();
     let mut node = zero;
     for (first, place) in places.iter().enumerate().filter(|(k, place)| !places[..*k].contains(place)) {
         let own: Vec<Node> =
@@ -270,7 +269,7 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], places: &[usize], most_
         let size = match own.len() {
             1 => graph.call(Function::Abs, parts[first]),
             _ => {
-                let square = products(graph, &own, &own);
+                let square = graph.products(&own, &own);
                 graph.sqrt(square)
             }
         };
@@ -299,7 +298,7 @@ fn largest_pattern(graph: &mut Graph, vectors: &[&Vec<Node>]) -> Magnitude {
         };
         sums = sums.iter().flat_map(|sum| [true, false].map(|is_added| with(graph, sum, is_added))).collect();
     }
-    let squares: Vec<Node> = sums.iter().map(|sum| products(graph, sum, sum)).collect();
+    let squares: Vec<Node> = sums.iter().map(|sum| graph.products(sum, sum)).collect();
     let node = squares.iter().copied().reduce(|a, b| graph.max(a, b)).unwrap_or(graph.zero());
     Magnitude { node, squared: true, parts, largest_of: squares }
 }

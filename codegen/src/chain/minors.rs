@@ -52,13 +52,5 @@ pub(super) fn solve(graph: &mut Graph, rows: &[Vec<Node>], b: &[Node]) -> Vec<No
     (0..count).map(unknown).collect()
 }
 
-/// Returns `Σ a_i b_i`.
-pub(super) fn products(graph: &mut Graph, a: &[Node], b: &[Node]) -> Node {
-    a.iter().zip(b).fold(graph.zero(), |sum, (a, b)| {
-        let product = graph.mul(*a, *b);
-        graph.add(sum, product)
-    })
-}
-
 #[cfg(test)]
 mod tests;

@@ -1,9 +1,10 @@
 //! `∂X_T/∂x` for a joint variable or structural parameter x that may stand anywhere in the chain.
 
+use abbe_spec::Factor;
 use abbe_spec::expr::Symbol;
 use indexmap::IndexMap;
 
-use super::walk::Step;
+use super::walk::{Step, walk};
 use crate::graph::{Frame, Graph, Vector};
 
 /// Returns the velocity of the tool point and the rotation per unit of a symbol, the sum over all
@@ -59,6 +60,13 @@ impl Steps {
             }
         }
         Self { list, by_symbol }
+    }
+
+    /// Returns the steps of a single transform.
+    pub(super) fn of_transform(graph: &mut Graph, factors: &[Factor]) -> Self {
+        let (identity, mut list) = (graph.identity(), Vec::new());
+        walk(graph, identity, factors, &mut list);
+        Self::new(graph, list)
     }
 
     /// Returns the symbols that at least one step depends on.

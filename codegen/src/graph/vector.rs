@@ -67,6 +67,12 @@ impl Graph {
         self.add(sum, products[2])
     }
 
+    /// Returns `Σ aᵢ bᵢ`.
+    pub(crate) fn products(&mut self, a: &[Node], b: &[Node]) -> Node {
+        let products: Vec<Node> = a.iter().zip(b).map(|(a, b)| self.mul(*a, *b)).collect();
+        products.into_iter().fold(self.zero(), |sum, product| self.add(sum, product))
+    }
+
     /// Returns `|a|`.
     pub(crate) fn norm(&mut self, a: Vector) -> Node {
         let square = self.dot(a, a);

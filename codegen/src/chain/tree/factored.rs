@@ -61,7 +61,7 @@ impl Factored {
             let rest = |row: &usize| {
                 // What is not known yet is zero.
                 let terms: Vec<Node> = self.columns.iter().map(|column| column[*row]).collect();
-                let known = dot(graph, &terms, &solution);
+                let known = graph.products(&terms, &solution);
                 graph.sub(right[*row], known)
             };
             let rest: Vec<Node> = factored.block.rows.iter().map(rest).collect();
@@ -76,7 +76,7 @@ impl Factored {
         let mut solution = vec![graph.zero(); row.len()];
         for factored in self.blocks.iter().rev() {
             let rest = |column: &usize| {
-                let known = dot(graph, &self.columns[*column], &solution);
+                let known = graph.products(&self.columns[*column], &solution);
                 graph.sub(row[*column], known)
             };
             let rest: Vec<Node> = factored.block.columns.iter().map(rest).collect();
@@ -111,7 +111,7 @@ impl FactoredBlock {
         for k in 0..columns.len() {
             let mut direction = columns[k][k..].to_vec();
             let reflection = direction[1..].iter().any(|entry| *entry != zero).then(|| {
-                let square = dot(graph, &direction, &direction);
+                let square = graph.products(&direction, &direction);
                 let (length, side) = (graph.sqrt(square), graph.call(Function::Side, direction[0]));
                 let signed = graph.mul(side, length);
                 direction[0] = graph.add(direction[0], signed);
@@ -152,7 +152,7 @@ impl FactoredBlock {
     fn solve_row(&self, graph: &mut Graph, row: &[Node]) -> Vec<Node> {
         let mut solution: Vec<Node> = Vec::new();
         for (k, entry) in row.iter().enumerate() {
-            let known = dot(graph, &self.upper[k], &solution);
+            let known = graph.products(&self.upper[k], &solution);
             let rest = graph.sub(*entry, known);
             solution.push(graph.mul(rest, self.reciprocals[k]));
         }
@@ -169,19 +169,13 @@ impl FactoredBlock {
 
 impl Reflection {
     fn apply(&self, graph: &mut Graph, vector: &mut [Node]) {
-        let product = dot(graph, &self.direction, vector);
+        let product = graph.products(&self.direction, vector);
         let along = graph.mul(self.factor, product);
         for (entry, direction) in vector.iter_mut().zip(&self.direction) {
             let part = graph.mul(along, *direction);
             *entry = graph.sub(*entry, part);
         }
     }
-}
-
-/// Returns the sum of products of the entries.
-pub(super) fn dot(graph: &mut Graph, a: &[Node], b: &[Node]) -> Node {
-    let products: Vec<Node> = a.iter().zip(b).map(|(a, b)| graph.mul(*a, *b)).collect();
-    products.into_iter().fold(graph.zero(), |sum, product| graph.add(sum, product))
 }
 
 #[cfg(test)]

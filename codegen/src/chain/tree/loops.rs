@@ -1,14 +1,13 @@
 //! Newton's steps that close the loops, of the nominal machine and with errors.
 
+use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Closure, Spec};
 
 use super::closure::{self, Ends};
-use super::continuation::passive_at_home;
 use super::factored::Factored;
 use super::parts::Parts;
 use super::system::LoopSystem;
-use super::units::{Units, at_home};
+use super::units::{Units, at_home, passive_at_home};
 use crate::chain::kinematics::magnitudes;
 use crate::chain::real::RealChain;
 use crate::chain::sources::{Causes, PlacedErrors};
@@ -156,10 +155,7 @@ impl RealNodes {
             let ends = Ends::new(spec, closed);
             let poses = chain.poses_below(graph, ends.root(spec));
             let identity = graph.identity();
-            let length = match &closed.closure {
-                Closure::Distance(length) => Some(chain.length(graph, length)),
-                Closure::Coordinates(_) => None,
-            };
+            let length = closed.closure.length().map(|length| chain.length(graph, length));
             let pose = |frame: Option<usize>| frame.map_or(identity, |frame| poses[frame]);
             residual.extend(closure::residual(graph, ends, &closed.closure, length, pose));
             upright.extend(closure::upright(graph, ends, &closed.closure, pose));

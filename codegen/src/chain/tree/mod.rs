@@ -9,13 +9,12 @@
 //! ```
 //!
 //! `triangular` sorts φ_p into irreducible blocks. `system` has the equations of a machine and
-//! Newton's step, `continuation` closes it at home, `path` follows a path from there, and `loops`
+//! Newton's step, `units` closes it at home, `path` follows a path from there, and `loops`
 //! has the systems of the nominal machine and with errors. `equations` has φ and φ_p themselves,
 //! `lengths` converts errors of the lengths of legs to errors of frames, `reactions` has the
 //! forces that close the loops of a loaded machine, and `curve` the tool point while errors grow.
 
 mod closure;
-mod continuation;
 mod curve;
 mod equations;
 mod factored;

@@ -5,9 +5,8 @@ use abbe_spec::expr::Symbol;
 use abbe_spec::{Closure, Factor, Spec};
 
 use super::closure::{self, Ends};
-use super::continuation::passive_at_home;
-use super::factored::{Factored, dot};
-use super::units::Units;
+use super::factored::Factored;
+use super::units::{Units, passive_at_home};
 use super::view::{Motion, View};
 use crate::chain::implicit::Implicit;
 use crate::graph::{Graph, Node, Vector};
@@ -38,10 +37,7 @@ impl<'s> Parts<'s> {
         let mut loops = Vec::new();
         for closed in &spec.loops {
             let ends = Ends::new(spec, closed);
-            let length = match &closed.closure {
-                Closure::Distance(length) => Some(graph.lower(length)),
-                Closure::Coordinates(_) => None,
-            };
+            let length = closed.closure.length().map(|length| graph.lower(length));
             let view = View::new(graph, spec, ends.root(spec));
             loops.push(Part { ends, closure: &closed.closure, length, view });
         }
@@ -95,7 +91,7 @@ impl<'s> Parts<'s> {
             let symbols: Vec<Symbol> = (0..count).map(|i| Symbol::Local(count * (row + 1) + i)).collect();
             *eliminated = symbols.iter().map(|symbol| graph.symbol(*symbol)).collect();
             let residual = columns.iter().zip(&tool).map(|(column, tool)| {
-                let product = dot(graph, eliminated, column);
+                let product = graph.products(eliminated, column);
                 graph.sub(product, tool[row])
             });
             sets.push((symbols, residual.collect()));
@@ -171,7 +167,7 @@ impl<'s> Parts<'s> {
     /// closed: `v − M φ̇`.
     fn closed(&self, graph: &mut Graph, twist: [Node; 6], rates: &[Node]) -> [Vector; 2] {
         let closed: [Node; 6] = std::array::from_fn(|row| {
-            let part = dot(graph, &self.eliminated[row], rates);
+            let part = graph.products(&self.eliminated[row], rates);
             graph.sub(twist[row], part)
         });
         [[closed[0], closed[1], closed[2]], [closed[3], closed[4], closed[5]]]

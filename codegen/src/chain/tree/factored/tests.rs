@@ -25,10 +25,10 @@ fn solutions_satisfy_the_equations() {
     let rows: Vec<Vec<Node>> = (0..5).map(|i| columns.iter().map(|column| column[i]).collect()).collect();
     let mut residuals: Vec<Node> = Vec::new();
     for k in 0..5 {
-        let (product, row) = (dot(g, &rows[k], &x), g.constant(1.0 / unit(k)));
+        let (product, row) = (g.products(&rows[k], &x), g.constant(1.0 / unit(k)));
         let residual = g.sub(product, right[k]);
         residuals.push(g.mul(row, residual));
-        let product = dot(g, &columns[k], &y);
+        let product = g.products(&columns[k], &y);
         residuals.push(g.sub(product, right[k]));
     }
     let value = |symbol| match symbol {
