@@ -18,11 +18,7 @@ pub fn compile(specs: impl AsRef<Path>) {
     let specs = specs.as_ref();
     println!("cargo:rerun-if-changed={}", specs.display());
     let out = std::env::var_os("OUT_DIR").map(PathBuf::from);
-    let result = match &out {
-        Some(out) => compile_into(specs, out),
-        None => Err(CompileError::NotABuildScript),
-    };
-    match result {
+    match out.map_or(Err(CompileError::NotABuildScript), |out| compile_into(specs, &out)) {
         Ok(files) => {
             for file in files {
                 println!("cargo:rerun-if-changed={}", file.display());

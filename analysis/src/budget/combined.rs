@@ -18,7 +18,8 @@ pub struct Extreme {
 }
 
 impl Extreme {
-    pub(super) fn add(&mut self, index: usize, value: f64) {
+    /// Takes in the value at a configuration.
+    pub fn add(&mut self, index: usize, value: f64) {
         if self.configuration.is_none() || value > self.value {
             *self = Self { value, configuration: Some(index) };
         }

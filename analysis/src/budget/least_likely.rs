@@ -89,10 +89,7 @@ impl<R: Register> LeastLikelyAccumulator<R> {
         let deviations = (number(self.tolerance) - middle) * two * (mean / variance).sqrt();
         let half = number(ONE_SIDED_95 / 2.0);
         self.farthest.add((variance / mean).sqrt().mul_add(half, middle), sums.place);
-        let most = match self.least.kept.get(KEPT - 1) {
-            Some((most, _)) => *most,
-            None => f64::INFINITY,
-        };
+        let most = self.least.kept.get(KEPT - 1).map_or(f64::INFINITY, |(most, _)| *most);
         if number(most).more_than(deviations).any() {
             self.keep(deviations.to_slice(), sums, &index);
         }

@@ -123,7 +123,7 @@ impl PartialErrors {
 
     /// Returns the indices of the configurations in the result.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
-        let worst = self.tallies.iter().filter_map(PartialSourceErrors::worst);
+        let worst = self.tallies.iter().filter_map(|errors| errors.worst);
         worst.chain(self.combined.indices()).chain(self.least_likely.indices())
     }
 }

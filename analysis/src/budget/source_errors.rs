@@ -63,7 +63,7 @@ pub struct SourceErrors {
 pub(super) struct PartialSourceErrors {
     least: [f64; 3],
     largest: [f64; 4],
-    worst: Option<usize>,
+    pub(super) worst: Option<usize>,
     relative: f64,
 }
 
@@ -72,11 +72,6 @@ impl PartialSourceErrors {
     pub(super) fn new() -> Self {
         // Finite, so that JSON can represent them.
         Self { least: [f64::MAX; 3], largest: [f64::MIN; 4], worst: None, relative: 0.0 }
-    }
-
-    /// Returns the index of the configuration with the largest norm.
-    pub(super) fn worst(&self) -> Option<usize> {
-        self.worst
     }
 
     /// Merges the result of the following configurations.

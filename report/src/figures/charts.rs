@@ -15,9 +15,7 @@ const CHANGED: Colour = Colour::XYZ[0];
 /// Builds the figures of repeated checks.
 pub(crate) fn scenes(report: &Report) -> Vec<Scene> {
     let mut scenes = Vec::new();
-    if let Some(finding) = &report.finding {
-        scenes.push(changed(finding, report));
-    }
+    scenes.extend(report.finding.as_ref().map(|finding| changed(finding, report)));
     scenes.push(all(report));
     let charts = report.nearest_first();
     let own = charts.iter().take(DRAWN).map(|chart| one(chart, report)).collect::<Vec<_>>();

@@ -313,10 +313,7 @@ impl Description {
 
     /// Returns the index of the frame that a frame hangs on; `None` for `F_0`.
     pub fn parent(&self, frame: usize) -> Option<usize> {
-        match &self.frames[frame].branch {
-            Some(branch) => branch.parent,
-            None => frame.checked_sub(1),
-        }
+        self.frames[frame].branch.as_ref().map_or(frame.checked_sub(1), |branch| branch.parent)
     }
 
     /// Returns the index of the frame that carries the tool; `None` without frames.

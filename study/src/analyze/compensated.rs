@@ -73,20 +73,15 @@ impl CompensatedErrors {
 
 impl CompensatedExtremes {
     fn add(&mut self, error: &ErrorDistribution, index: usize, tolerance: Option<f64>) {
-        let put = |extreme: &mut Extreme, value: f64| {
-            if extreme.configuration.is_none() || value > extreme.value {
-                *extreme = Extreme { value, configuration: Some(index) };
-            }
-        };
-        put(&mut self.repeatable, error.repeatable_radius());
-        put(&mut self.radius, error.radius());
+        self.repeatable.add(index, error.repeatable_radius());
+        self.radius.add(index, error.radius());
         if self.worst_case.configuration.is_none() || error.simple_bound() > self.worst_case.value {
-            put(&mut self.worst_case, error.worst_case().norm);
+            self.worst_case.add(index, error.worst_case().norm);
         }
         self.is_bounded &= error.is_bounded();
         let Some(tolerance) = tolerance else { return };
         let [farthest, deviations] = error.approximate(tolerance);
-        put(&mut self.farthest, farthest);
+        self.farthest.add(index, farthest);
         let after = self.least_likely.partition_point(|kept| kept.0 <= deviations);
         if after < KEPT {
             self.least_likely.truncate(KEPT - 1);

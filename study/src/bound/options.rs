@@ -39,10 +39,7 @@ impl FromStr for Gap {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (digits, unit) = match text.trim().strip_suffix('%') {
-            Some(digits) => (digits, 0.01),
-            None => (text, 1.0),
-        };
+        let (digits, unit) = text.trim().strip_suffix('%').map_or((text, 1.0), |digits| (digits, 0.01));
         let value = digits.trim().parse::<f64>().map_err(|error| error.to_string())?;
         Ok(Self::new(value * unit)?)
     }

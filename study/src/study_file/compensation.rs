@@ -63,9 +63,7 @@ pub(super) fn read(item: &Item<'_>, spec: &Spec) -> Option<Compensated> {
                 Diagnostic::new(item.key_span.clone(), message).label("random errors cannot be compensated");
             item.document.mistake(mistake.help("remove this entry: random errors are not changed"));
         }
-        if let Some(residual) = residual(&item, spec) {
-            compensated.named.push((item.key.clone(), residual));
-        }
+        compensated.named.extend(residual(&item, spec).map(|residual| (item.key.clone(), residual)));
     }
     Some(compensated)
 }

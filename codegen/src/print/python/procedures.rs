@@ -23,10 +23,8 @@ pub(super) struct PythonPrinter<'p> {
 impl PythonPrinter<'_> {
     /// Returns a value that is assigned in the present branch only.
     fn chosen(&self, value: &str, place: &str) -> String {
-        match self.cases.last() {
-            None => value.to_owned(),
-            Some(case) => format!("np.where({case}, {value}, {place})"),
-        }
+        let chosen = |case: &String| format!("np.where({case}, {value}, {place})");
+        self.cases.last().map_or_else(|| value.to_owned(), chosen)
     }
 }
 

@@ -59,18 +59,12 @@ impl StructuredText {
         let mut reserved = format!("{WORDS} {OWN} {}", tables.join(" "));
         let called =
             routines.list.iter().map(|routine| routine.name).chain(procedures.iter().map(|one| one.name));
-        for name in called.chain(Routine::ALL.map(Routine::name)) {
-            reserved.push_str(&format!(" {prefix}_{name} {}", instance(name)));
-        }
-        for name in Support::names() {
-            reserved.push_str(&format!(" {prefix}_{name}"));
-        }
-        for table in &routines.tables {
-            reserved.push_str(&format!(" {0}_0 {0}_1", table.name));
-        }
-        for sums in &routines.sums {
-            reserved.push_str(&format!(" {0}_CONSTANTS {0}_ENTRIES {0}_TERMS {0}_FACTORS", sums.name));
-        }
+        let called = called.chain(Routine::ALL.map(Routine::name));
+        reserved.extend(called.map(|name| format!(" {prefix}_{name} {}", instance(name))));
+        reserved.extend(Support::names().map(|name| format!(" {prefix}_{name}")));
+        reserved.extend(routines.tables.iter().map(|table| format!(" {0}_0 {0}_1", table.name)));
+        let of_sums = |name| format!(" {name}_CONSTANTS {name}_ENTRIES {name}_TERMS {name}_FACTORS");
+        reserved.extend(routines.sums.iter().map(|sums| of_sums(&sums.name)));
         Self { prefix, tables, reserved }
     }
 

@@ -138,10 +138,8 @@ impl RoutineBuilder<'_, '_> {
         }
         self.backwards(body);
 
-        let rows = match axis {
-            Some(axis) => self.rows(|body| body.vector(axis, Row::All)),
-            None => RowsArray::ROTATION_VECTOR,
-        };
+        let euler = |axis| self.rows(|body| body.vector(axis, Row::All));
+        let rows = axis.map_or(RowsArray::ROTATION_VECTOR, euler);
         let mut body = Body::new();
         let numbers = body.read(state, Row::All, A::NUMBERS);
         let rows = rows.read(&mut body);

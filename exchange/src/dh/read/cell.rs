@@ -36,10 +36,7 @@ impl Cells<'_> {
         let heading = [Quantity::Alpha, Quantity::Theta]
             .into_iter()
             .find_map(|quantity| self.columns.get(quantity)?.unit);
-        match heading {
-            Some(unit) => unit == Unit::Degree,
-            None => self.units.degrees.unwrap_or(false),
-        }
+        heading.map_or(self.units.degrees.unwrap_or(false), |unit| unit == Unit::Degree)
     }
 
     /// Returns the cell of a quantity in a row; `None` without such a column, and for an empty
@@ -60,10 +57,7 @@ impl Cells<'_> {
         let whole = document.text.clone();
         let text = &whole[cell.clone()];
         // Numbers may have the sign of degrees, and the minus sign of typesetters.
-        let (text, in_degrees) = match text.strip_suffix('°') {
-            Some(text) => (text.trim_end(), true),
-            None => (text, false),
-        };
+        let (text, in_degrees) = text.strip_suffix('°').map_or((text, false), |text| (text.trim_end(), true));
         let plain = text.replace('−', "-").replace(' ', "");
         let plain =
             if self.decimal_comma && !plain.contains('.') { plain.replacen(',', ".", 1) } else { plain };

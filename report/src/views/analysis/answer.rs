@@ -216,14 +216,12 @@ fn times(factor: f64) -> String {
 fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Study", report.title.clone())];
     facts.extend(changed(&report.changes));
-    if let Some(worst) = report.configuration(report.judged_error(Measurand::Position).configuration) {
-        facts.push(("Worst", place(&report.label(worst))));
-    }
+    let worst = report.configuration(report.judged_error(Measurand::Position).configuration);
+    facts.extend(worst.map(|worst| ("Worst", place(&report.label(worst)))));
     let compensated = report.verdicts.as_ref().and_then(|verdicts| verdicts.compensated.as_ref());
     let worst = compensated.and_then(|compensated| compensated.verdicts.all().next());
-    if let Some(worst) = worst.and_then(|verdict| report.configuration(verdict.configuration)) {
-        facts.push(("", format!("compensated {}", place(&report.label(worst)))));
-    }
+    let worst = worst.and_then(|verdict| report.configuration(verdict.configuration));
+    facts.extend(worst.map(|worst| ("", format!("compensated {}", place(&report.label(worst))))));
     if compensated.is_some_and(|compensated| compensated.basis != CompensationBasis::Published) {
         facts.push(("Left out", "after compensation: errors that the spec does not have".to_owned()));
     }

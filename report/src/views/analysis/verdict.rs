@@ -65,10 +65,7 @@ fn tolerance_sentence(
         Measurand::Position => "Position",
         Measurand::Orientation => "Orientation",
     };
-    let name = match compensated {
-        None => name.to_owned(),
-        Some(_) => format!("{name}, compensated"),
-    };
+    let name = compensated.map_or(name.to_owned(), |_| format!("{name}, compensated"));
     let repeatable = match compensated.map(|compensated| compensated.basis) {
         None => "repeatable sources at their values",
         Some(CompensationBasis::Stated) => {

@@ -103,11 +103,7 @@ impl Assignment {
             if std::mem::replace(&mut tried[passive], true) {
                 continue;
             }
-            let free = match self.determined_by[passive] {
-                Some(other) => self.assign(other, tried),
-                None => true,
-            };
-            if free {
+            if self.determined_by[passive].is_none_or(|other| self.assign(other, tried)) {
                 self.determined_by[passive] = Some(index);
                 return true;
             }

@@ -88,10 +88,8 @@ fn read(root: &Section<'_>) -> Option<Spec> {
     let mut complete = true;
     let mut frames = Vec::new();
     for (index, raw) in raw_frames.iter().flatten().enumerate() {
-        let parent = match raw.section.get("parent") {
-            Some(item) => read_parent(&item, index, &named),
-            None => index.checked_sub(1),
-        };
+        let stated = raw.section.get("parent");
+        let parent = stated.map_or(index.checked_sub(1), |item| read_parent(&item, index, &named));
         let factors = read_frame_factors(raw, &declarations, root.document);
         complete &= factors.is_some();
         frames.push(Frame {
