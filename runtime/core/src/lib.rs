@@ -76,7 +76,7 @@ pub use scalar::{LookupTable, Scalar};
 pub use shared::{List, Text};
 pub use source::{Class, Distribution, Effect, Source, whole};
 #[cfg(feature = "lanes")]
-pub use twist::{roll_cosine, twist};
+pub use twist::twist;
 
 /// Includes every module that `abbe_codegen::compile` generated in this crate's build script.
 ///

@@ -1,7 +1,7 @@
 //! Jacobian columns as twists, for either orientation of rows 4–6.
 
 use crate::chain::renamed;
-use crate::{Orientation, Pose, euler_margin};
+use crate::{Orientation, Pose};
 
 /// Returns a column with rows 4–6 converted to the small rotation in `F_0` axes. `pose` is the tool
 /// pose.
@@ -19,9 +19,4 @@ pub fn twist(orientation: Orientation, pose: &Pose, column: &[f64; 6]) -> [f64; 
     // Back to the axes of F_0: three cyclic renamings are none.
     let [a, b, c] = renamed((3 - axis) % 3, turn);
     [x, y, z, a, b, c]
-}
-
-/// Returns `cos ρ = √(r11² + r31²)`, the margin of [`Orientation::EulerYzx`].
-pub fn roll_cosine(pose: &Pose) -> f64 {
-    euler_margin(Orientation::EulerYzx, pose)
 }

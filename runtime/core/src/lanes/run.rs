@@ -39,12 +39,7 @@ pub fn run<M: Evaluate<F> + ?Sized, F: Named>(
     results: &mut Tiles,
 ) -> Result<(), Error> {
     check(F::FUNCTION, manipulator.description(), arguments, results)?;
-    arguments.instruction_set().run(Over {
-        manipulator,
-        arguments,
-        results,
-        function: core::marker::PhantomData::<F>,
-    });
+    arguments.instruction_set().run(Over { manipulator, arguments, results, _function });
     Ok(())
 }
 
@@ -53,7 +48,7 @@ struct Over<'a, M: ?Sized, F> {
     manipulator: &'a M,
     arguments: &'a Tiles,
     results: &'a mut Tiles,
-    function: core::marker::PhantomData<F>,
+    _function: F,
 }
 
 impl<M: Evaluate<F> + ?Sized, F: Named> Kernel for Over<'_, M, F> {

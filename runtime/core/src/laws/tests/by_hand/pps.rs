@@ -162,7 +162,7 @@ fn error_jacobian(q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose
             *entry = column(component.is_rotation(), axis, prefix.position(), &tool);
         }
     }
-    checks::margin(roll_cosine(&tool))?;
+    checks::margin(euler_margin(Orientation::EulerYzx, &tool))?;
     Ok(tool)
 }
 
@@ -173,7 +173,7 @@ fn joint_jacobian(q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose
         let prefix = chain(&transforms[..i]).then(&translation(0.0, offset, 0.0));
         *entry = column(i >= 3, prefix.0[axis], prefix.position(), &tool);
     }
-    checks::margin(roll_cosine(&tool))?;
+    checks::margin(euler_margin(Orientation::EulerYzx, &tool))?;
     Ok(tool)
 }
 
