@@ -503,6 +503,24 @@ impl<'d> Section<'d> {
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
+    /// Returns the tables of a list `[[key]]`; none without it, or if there are more than `most`, which
+    /// is a mistake.
+    pub(crate) fn tables(&self, key: &str, most: usize, help: &str) -> Vec<Item<'d>> {
+        let items = self.get(key).and_then(|item| {
+            let items = item.array_of_tables(key)?;
+            item.at_most(items.len(), most, &format!("{key}s"), help).map(|()| items)
+        });
+        items.unwrap_or_default()
+    }
+
+    /// Returns the section of a key; `None` without it, or if it has more than `most` entries, which
+    /// is a mistake.
+    pub(crate) fn section(&self, key: &str, most: usize, help: &str) -> Option<Self> {
+        let item = self.get(key)?;
+        let section = item.section()?;
+        item.at_most(section.items().count(), most, key, help).map(|()| section)
+    }
+
     /// Records every unknown key with the most similar known one, and every `description` or
     /// `reference` that is no string.
     pub fn check_keys(&self, known: &[&Keys]) {

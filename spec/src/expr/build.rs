@@ -8,6 +8,10 @@ use super::unit::LARGEST;
 use super::{Binary, Dimension, Entry, Expression, Function, Kind, Lookup, Scope, Term, UNIT_NAMES, Unit};
 use crate::diagnostic::{Diagnostic, Span, first, nearest_after};
 
+/// Functions of two arguments.
+pub(super) const FUNCTIONS_OF_TWO: [(&str, Binary); 3] =
+    [("atan2", Binary::Atan2), ("min", Binary::Min), ("max", Binary::Max)];
+
 /// Terms under construction. Semantic errors are recorded in `found` and do not stop construction.
 pub(super) struct Builder<'b> {
     pub(super) scope: &'b Scope,
@@ -67,9 +71,7 @@ impl<'b> Builder<'b> {
 
     pub(super) fn name(&mut self, name: &str, span: Span) -> Result<usize, Diagnostic> {
         if name == "pi" {
-            let value = Some(std::f64::consts::PI);
-            let kind = Kind::Number(std::f64::consts::PI);
-            return Ok(self.push(Term { kind, dimension: Some(Dimension::NONE), value, span, bare: false }));
+            return Ok(self.number(std::f64::consts::PI, Some(Unit::NONE), span));
         }
         let Some(declared) = self.scope.names.get(name) else {
             let mistake = if Unit::named(name).is_some() {
@@ -122,15 +124,16 @@ impl<'b> Builder<'b> {
         self.push_folded(Kind::Call(function, operand), dimension, value, span)
     }
 
-    /// Builds `atan2`, `min` or `max`.
-    pub(super) fn function_of_two(&mut self, operator: Binary, a: usize, b: usize, span: Span) -> usize {
-        let dimension = match operator {
-            Binary::Atan2 => self
-                .equal(a, b, "the arguments of `atan2` must have the same dimension")
-                .map(|_| Dimension::NONE),
-            Binary::Min => self.equal(a, b, "the arguments of `min` must have the same dimension"),
-            _ => self.equal(a, b, "the arguments of `max` must have the same dimension"),
-        };
+    /// Builds one of [`FUNCTIONS_OF_TWO`].
+    pub(super) fn function_of_two(
+        &mut self,
+        (name, operator): (&str, Binary),
+        a: usize,
+        b: usize,
+        span: Span,
+    ) -> usize {
+        let common = self.equal(a, b, &format!("the arguments of `{name}` must have the same dimension"));
+        let dimension = common.map(|own| if operator == Binary::Atan2 { Dimension::NONE } else { own });
         let value = self.both(a, b).map(|(a, b)| operator.evaluate(a, b));
         self.push_folded(Kind::Binary(operator, a, b), dimension, value, span)
     }

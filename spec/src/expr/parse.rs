@@ -9,7 +9,7 @@
 //! unit    = [factor] { ("*" | "/") factor }      factor = unit-name ["^" ["-"] digits] | "(" unit ")"
 //! ```
 
-use super::build::Builder;
+use super::build::{Builder, FUNCTIONS_OF_TWO};
 use super::function::FUNCTION_NAMES;
 use super::tokens::{Token, tokens};
 use super::{Binary, Entry, Expression, Function, Scope, TextLocation, Unit};
@@ -240,12 +240,7 @@ impl<'p> Parser<'p> {
     }
 
     fn call(&mut self, word: &str, start: Span) -> Parsed<usize> {
-        let two = match word {
-            "atan2" => Some(Binary::Atan2),
-            "min" => Some(Binary::Min),
-            "max" => Some(Binary::Max),
-            _ => None,
-        };
+        let two = FUNCTIONS_OF_TWO.into_iter().find(|(name, _)| *name == word);
         let function = Function::named(word);
         let is_table = self.builder.scope.table(word).is_some();
         if two.is_none() && function.is_none() && !is_table {
@@ -258,14 +253,14 @@ impl<'p> Parser<'p> {
         let begin = self.builder.terms.len();
         let first = self.nested(Self::sum)?;
         let mut whole = first;
-        if let Some(operator) = two {
+        if let Some(two) = two {
             let mut more = true;
             while more {
                 self.expect(',')?;
                 let next = self.nested(Self::sum)?;
-                whole = self.builder.function_of_two(operator, whole, next, start.start..self.here().end);
+                whole = self.builder.function_of_two(two, whole, next, start.start..self.here().end);
                 // `min` and `max` take any number of arguments, `atan2` takes two.
-                more = operator != Binary::Atan2 && self.peek() == Token::Sign(',');
+                more = two.1 != Binary::Atan2 && self.peek() == Token::Sign(',');
             }
         }
         let end = self.expect(')')?;

@@ -33,12 +33,8 @@ impl Declarations {
 
     /// Reads `[parameters]`.
     pub(super) fn read_parameters(&mut self, root: &Section<'_>) {
-        let Some(item) = root.get("parameters") else { return };
-        let Some(section) = item.section() else { return };
         let help = "write constants that are never changed where they are used";
-        if item.at_most(section.items().count(), MOST, "parameters", help).is_none() {
-            return;
-        }
+        let Some(section) = root.section("parameters", MOST, help) else { return };
         for item in section.items() {
             let (value, table) = self.valued(&item, &keys::PARAMETER, "parameter");
             let symbol = Symbol::Parameter(self.parameters.len());
@@ -53,12 +49,8 @@ impl Declarations {
 
     /// Reads `[inputs]`.
     pub(super) fn read_inputs(&mut self, root: &Section<'_>) {
-        let Some(item) = root.get("inputs") else { return };
-        let Some(section) = item.section() else { return };
         let help = "use parameters, or write constants where they are used";
-        if item.at_most(section.items().count(), MOST, "inputs", help).is_none() {
-            return;
-        }
+        let Some(section) = root.section("inputs", MOST, help) else { return };
         for item in section.items() {
             let (value, table) = self.valued(&item, &keys::INPUT, "input");
             let symbol = Symbol::Input(self.inputs.len());
@@ -213,11 +205,9 @@ impl Declarations {
         if !item.is_table() {
             return (item.constant(&self.scope, entry), None);
         }
-        let Some(mut table) = item.section() else {
+        let Some(table) = item.table(format!("the {what} `{}`", item.key), &[known]) else {
             return (None, None);
         };
-        table.name = format!("the {what} `{}`", item.key);
-        table.check_keys(&[known]);
         let value = table.required("value");
         (value.and_then(|value| value.constant(&self.scope, entry)), Some(table))
     }

@@ -13,9 +13,7 @@ pub(super) fn read_loads(root: &Section<'_>, tree: Tree<'_>, scope: &Scope) -> V
     let items = root.get("load").and_then(|item| item.array_of_tables("load"));
     let mut loads = Vec::new();
     for item in items.unwrap_or_default() {
-        if let Some(mut section) = item.section() {
-            section.name = "this [[load]]".to_owned();
-            section.check_keys(&[&keys::LOAD]);
+        if let Some(section) = item.table("this [[load]]", &[&keys::LOAD]) {
             for text in ["name", "description", "reference"] {
                 section.optional_text(text);
             }

@@ -31,14 +31,9 @@ pub(super) fn read_loops<'d>(
     declarations: &mut Declarations,
 ) -> Vec<RawLoop<'d>> {
     let mut loops: Vec<RawLoop<'d>> = Vec::new();
-    let Some(item) = root.get("loop") else { return loops };
-    let Some(items) = item.array_of_tables("loop") else { return loops };
     let help = "replace parts that move as one body by a single frame";
-    if item.at_most(items.len(), MOST_LOOPS, "loops", help).is_none() {
-        return loops;
-    }
     let mut known = Vec::new();
-    for (index, item) in items.iter().enumerate() {
+    for (index, item) in root.tables("loop", MOST_LOOPS, help).iter().enumerate() {
         let Some(mut section) = item.named(format!("loop {}", index + 1)) else { continue };
         let name = read_title(&mut section, "loop", &mut known, "rename one").unwrap_or_default();
         section.check_keys(&[&keys::LOOP]);

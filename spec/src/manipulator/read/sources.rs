@@ -23,14 +23,9 @@ const MOST_SOURCES: usize = 10_000;
 /// Reads all sources of a spec.
 pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>) -> Vec<Source> {
     let mut sources: Vec<Source> = Vec::new();
-    let Some(item) = root.get("source") else { return sources };
-    let Some(items) = item.array_of_tables("source") else { return sources };
     let help = "combine similar random sources into one with the root sum of squares of their values";
-    if item.at_most(items.len(), MOST_SOURCES, "sources", help).is_none() {
-        return sources;
-    }
     let mut known = Vec::new();
-    for item in items {
+    for item in root.tables("source", MOST_SOURCES, help) {
         let Some(mut section) = item.named("this [[source]]") else { continue };
         let help = "rename one, or give one source several [[source.effect]] tables";
         match read_title(&mut section, "source", &mut known, help) {
@@ -109,9 +104,7 @@ fn read_source(section: &Section<'_>, name: String, chain: Chain<'_>) -> Option<
         acts.read(section, chain);
     }
     for item in tables.unwrap_or_default() {
-        if let Some(mut table) = item.section() {
-            table.name = format!("an effect of {}", section.name);
-            table.check_keys(&KNOWN[1..]);
+        if let Some(table) = item.table(format!("an effect of {}", section.name), &KNOWN[1..]) {
             acts.read(&table, chain);
         }
     }

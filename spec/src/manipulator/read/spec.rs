@@ -228,12 +228,8 @@ fn read_frames<'d>(root: &Section<'d>, declarations: &mut Declarations) -> Optio
     if items.is_empty() {
         return item.refuse("a manipulator needs at least one frame", "add a [[frame]]");
     }
-    item.at_most(
-        items.len(),
-        MOST_FRAMES,
-        "frames",
-        "merge frames without errors: a transform can be a product",
-    )?;
+    let help = "merge frames without errors: a transform can be a product";
+    item.at_most(items.len(), MOST_FRAMES, "frames", help)?;
     let (mut frames, mut known) = (Vec::new(), Vec::new());
     for (index, item) in items.iter().enumerate() {
         let Some(mut section) = item.named(format!("frame {}", index + 1)) else { continue };

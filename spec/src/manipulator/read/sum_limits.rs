@@ -14,16 +14,11 @@ const MOST: usize = 100;
 
 /// Reads the `[[limit]]` tables.
 pub(super) fn read_sum_limits(root: &Section<'_>, declarations: &Declarations) -> Vec<SumLimit> {
-    let items = root.get("limit").and_then(|item| {
-        let items = item.array_of_tables("limit")?;
-        let help = "keep those that configurations can exceed within the limits of each joint";
-        item.at_most(items.len(), MOST, "limits", help).map(|()| items)
-    });
+    let help = "keep those that configurations can exceed within the limits of each joint";
     let mut limits: Vec<SumLimit> = Vec::new();
-    for (index, item) in items.unwrap_or_default().iter().enumerate() {
-        let Some(section) = item.named(format!("limit {}", index + 1)) else { continue };
-        section.check_keys(&[&keys::LIMIT]);
-        limits.extend(read_sum_limit(&section, declarations));
+    for (index, item) in root.tables("limit", MOST, help).iter().enumerate() {
+        let section = item.table(format!("limit {}", index + 1), &[&keys::LIMIT]);
+        limits.extend(section.and_then(|section| read_sum_limit(&section, declarations)));
     }
     limits
 }
