@@ -2,7 +2,7 @@
 
 use abbe::analysis::sampling::range_of;
 use abbe_study::analyze::Report;
-use abbe_study::analyze::figures::{Mesh, Range};
+use abbe_study::analyze::figures::{Merge, Mesh, Range};
 use abbe_study::number::trimmed;
 use abbe_study::study_file::Over;
 
@@ -40,7 +40,7 @@ pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &NamedFigure, report: 
 /// States the error with the largest magnitude on an axis, and the published one.
 fn published(axis: usize, mesh: &Mesh, figure: &NamedFigure, report: &Report) -> String {
     let mut span = Range::default();
-    mesh.cells.iter().flatten().flatten().for_each(|cell| span.join(cell.errors[axis]));
+    mesh.cells.iter().flatten().flatten().for_each(|cell| span.merge(cell.errors[axis]));
     let errors = figure.errors(report);
     let here = format!("here: {} {}", trimmed(errors.show(span.farther()), 4), errors.unit);
     match figure.published_range(axis, span, report) {

@@ -1,7 +1,7 @@
 //! Errors over the travel of one variable: one panel per axis, with the same scale.
 
 use abbe_study::analyze::Report;
-use abbe_study::analyze::figures::{Envelope, Range};
+use abbe_study::analyze::figures::{Envelope, Merge, Range};
 use abbe_study::study_file::Over;
 
 use super::{NamedFigure, Quantity};
@@ -14,12 +14,12 @@ pub(super) fn scene(envelope: &Envelope, over: Over, figure: &NamedFigure, repor
     let mut spans = [Range::default(); 3];
     let mut travelled = Range::default();
     for bin in &bins {
-        travelled.join(bin.travel);
-        spans.iter_mut().zip(bin.errors).for_each(|(span, errors)| span.join(errors));
+        travelled.merge(bin.travel);
+        spans.iter_mut().zip(bin.errors).for_each(|(span, errors)| span.merge(errors));
     }
     let printed: [_; 3] = std::array::from_fn(|axis| figure.published_range(axis, spans[axis], report));
     let mut all = Range { least: 0.0, largest: 0.0 };
-    spans.into_iter().chain(printed.iter().flatten().map(|printed| printed.range)).for_each(|r| all.join(r));
+    spans.into_iter().chain(printed.iter().flatten().map(|printed| printed.range)).for_each(|r| all.merge(r));
     let range = with_margin([all.least, all.largest].map(|error| errors.show(error)), 0.12);
     let across = with_margin([travelled.least, travelled.largest].map(|value| travel.show(value)), 0.02);
 

@@ -31,12 +31,6 @@ impl Range {
         self.largest = self.largest.max(value);
     }
 
-    /// Extends the range to another range.
-    pub fn join(&mut self, other: Self) {
-        self.add(other.least);
-        self.add(other.largest);
-    }
-
     /// Returns the midpoint.
     pub fn middle(self) -> f64 {
         f64::midpoint(self.least, self.largest)
@@ -86,9 +80,9 @@ impl Extremes {
 
 impl Merge for Extremes {
     fn merge(&mut self, other: Self) {
-        self.travel.join(other.travel);
+        self.travel.merge(other.travel);
         for (range, other) in self.errors.iter_mut().zip(other.errors) {
-            range.join(other);
+            range.merge(other);
         }
         let norm = |worst: &Option<Worst>| worst.as_ref().map(|worst| worst.norm);
         if norm(&other.worst) > norm(&self.worst) {
@@ -163,7 +157,7 @@ impl Grid {
         columns.widen(exponent);
         let lines = self.0.into_contents().map(|mut line| {
             line.bins.widen(exponent);
-            line.bins.iter().for_each(|(_, cell)| columns.bin_mut(cell.travel.least).join(cell.travel));
+            line.bins.iter().for_each(|(_, cell)| columns.bin_mut(cell.travel.least).merge(cell.travel));
             line
         });
         let lines = lines.collect::<Vec<_>>();
@@ -204,13 +198,14 @@ impl Default for Line {
 
 impl Merge for Line {
     fn merge(&mut self, other: Self) {
-        self.travel.join(other.travel);
+        self.travel.merge(other.travel);
         self.bins.merge(other.bins);
     }
 }
 
 impl Merge for Range {
     fn merge(&mut self, other: Self) {
-        self.join(other);
+        self.add(other.least);
+        self.add(other.largest);
     }
 }
