@@ -27,12 +27,7 @@ pub(super) fn body(
     }
     let mut ready = vec![0; program.registers];
     // Outputs are names or constants, without arithmetic.
-    let mut returned = vec![false; program.registers];
-    for output in &program.outputs {
-        if let Operand::Register(register) = output {
-            returned[*register] = true;
-        }
-    }
+    let returned = program.returned();
     let mut steps = program.steps.iter().peekable();
     while let Some(step) = steps.next() {
         if let Action::SinCos(angle) = step.action {

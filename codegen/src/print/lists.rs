@@ -8,7 +8,7 @@ use abbe_spec::Spec;
 use abbe_spec::literal::quoted;
 
 use super::layout::Writer;
-use crate::program::{Operand, Routines, Sums, Table};
+use crate::program::{Operand, Program, Routines, Sums, Table};
 
 /// A list of whole or real numbers.
 pub(super) struct List<'r> {
@@ -56,12 +56,9 @@ pub(super) fn lists<'r>(
 
 /// Returns all numbers of the programs, sums, tables and values of a file.
 pub(super) fn numbers(spec: &Spec, routines: &Routines) -> Vec<f64> {
-    let programs = routines.programs().flat_map(|program| {
-        let operands = program.steps.iter().flat_map(|step| step.action.operands());
-        operands.chain(program.outputs.iter().copied()).filter_map(|operand| match operand {
-            Operand::Constant(value) => Some(value),
-            _ => None,
-        })
+    let programs = routines.programs().flat_map(Program::operands).filter_map(|operand| match operand {
+        Operand::Constant(value) => Some(value),
+        _ => None,
     });
     let sums = routines.sums.iter();
     let sums = sums.flat_map(|sums| sums.constants.iter().copied().chain(sums.factors.iter().map(|f| f.2)));

@@ -48,7 +48,7 @@ impl Statements {
             margin: None,
             by_columns,
         };
-        let symbols = symbols(routine);
+        let symbols = routine.programs().flat_map(used_symbols).collect();
         let mut list = writer.arguments(&symbols);
         let is_loop = |stage: &Stage| matches!(stage, Stage::Block(Block { repeated: Some(_), .. }));
         if routine.stages.iter().any(is_loop) {
@@ -328,21 +328,12 @@ struct Assignment {
     statement: Statement,
 }
 
-fn symbols(routine: &Routine) -> HashSet<Symbol> {
-    let programs = routine.stages.iter().filter_map(|stage| match stage {
-        Stage::Block(block) => Some(&block.program),
-        _ => None,
-    });
-    programs.flat_map(used_symbols).collect()
-}
-
 fn used_symbols(program: &Program) -> HashSet<Symbol> {
-    let operands = program.steps.iter().flat_map(|step| step.action.operands());
     let symbol = |operand| match operand {
         Operand::Symbol(symbol) => Some(symbol),
         _ => None,
     };
-    operands.chain(program.outputs.iter().copied()).filter_map(symbol).collect()
+    program.operands().filter_map(symbol).collect()
 }
 
 /// Returns the symbol of each entry of an array, if programs use the entries as symbols.

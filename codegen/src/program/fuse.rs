@@ -43,7 +43,7 @@ impl Program {
     }
 
     /// Returns which registers are results.
-    fn returned(&self) -> Vec<bool> {
+    pub(crate) fn returned(&self) -> Vec<bool> {
         let mut returned = vec![false; self.registers];
         for output in &self.outputs {
             if let Operand::Register(register) = output {

@@ -147,6 +147,14 @@ pub enum Row {
 }
 
 impl Routine {
+    /// Iterates over the programs of the routine.
+    pub fn programs(&self) -> impl Iterator<Item = &Program> {
+        self.stages.iter().filter_map(|stage| match stage {
+            Stage::Block(block) => Some(&block.program),
+            _ => None,
+        })
+    }
+
     /// Returns the number of stages that write an array.
     pub fn writes(&self, array: usize) -> usize {
         self.stages.iter().filter(|stage| stage.writes(array)).count()

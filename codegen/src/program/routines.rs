@@ -215,10 +215,7 @@ impl Routines {
 
     /// Iterates over the programs of all routines.
     pub fn programs(&self) -> impl Iterator<Item = &Program> {
-        self.stages().filter_map(|stage| match stage {
-            Stage::Block(block) => Some(&block.program),
-            _ => None,
-        })
+        self.list.iter().flat_map(Routine::programs)
     }
 
     fn stages(&self) -> impl Iterator<Item = &Stage> {

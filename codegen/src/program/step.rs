@@ -94,10 +94,15 @@ pub struct Program {
 }
 
 impl Program {
+    /// Iterates over the operands of all steps, and the outputs.
+    pub(crate) fn operands(&self) -> impl Iterator<Item = Operand> {
+        let operands = self.steps.iter().flat_map(|step| step.action.operands());
+        operands.chain(self.outputs.iter().copied())
+    }
+
     pub(super) fn count_uses(&mut self) {
         let mut uses = vec![0; self.registers];
-        let operands = self.steps.iter().flat_map(|step| step.action.operands());
-        for operand in operands.chain(self.outputs.iter().copied()) {
+        for operand in self.operands() {
             if let Operand::Register(register) = operand {
                 uses[register] += 1;
             }

@@ -5,7 +5,7 @@ use abbe_core::function::Count;
 use abbe_spec::expr::Symbol;
 
 use super::routine::{Array, ArrayRows, Block, Repeated, Role, Stage};
-use super::{Program, Rounded};
+use super::{Operand, Program, Rounded};
 use crate::chain::{ClosedLoops, Model, Path, RealNodes, STEPS};
 use crate::graph::{Graph, Node};
 
@@ -177,8 +177,5 @@ fn rounded_symbol(given: Symbol, locals: &[Rounded], symbol: &dyn Fn(Symbol) -> 
 
 /// Returns `true` if a program reads passive variables.
 fn reads_passive(program: &Program) -> bool {
-    let operands = program.steps.iter().flat_map(|step| step.action.operands());
-    operands
-        .chain(program.outputs.iter().copied())
-        .any(|operand| matches!(operand, super::Operand::Symbol(Symbol::Local(_))))
+    program.operands().any(|operand| matches!(operand, Operand::Symbol(Symbol::Local(_))))
 }
