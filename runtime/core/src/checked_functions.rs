@@ -18,14 +18,14 @@ macro_rules! checked_functions {
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct $name;
 
-        $crate::for_each_function!($crate::checked_function);
+        $crate::for_functions!(every: $crate::checked_function);
 
         $($crate::checked_functions!(@outside $with);)*
 
         /// Functions that fill arrays and check the results.
         mod checked {
             use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES, raw};
-            $crate::for_each_function!($crate::checked_arrays, of_all);
+            $crate::for_functions!(every: $crate::checked_arrays, of_all);
             $($crate::checked_functions!(@inside $with);)*
         }
 
@@ -80,7 +80,7 @@ macro_rules! checked_functions {
             })
         }
 
-        $crate::for_each_function!($crate::evaluate_functions, $name);
+        $crate::for_functions!(every: $crate::evaluate_functions, $name);
 
         impl $crate::Manipulator for $name {
             fn description(&self) -> &$crate::Description {
@@ -108,22 +108,22 @@ macro_rules! checked_functions {
         }
     };
     (@outside loops) => {
-        $crate::for_each_function_of_loops!($crate::checked_function);
+        $crate::for_functions!(loops: $crate::checked_function);
     };
     (@outside inverse) => {
-        $crate::for_each_function_of_inverse!($crate::checked_function);
+        $crate::for_functions!(inverse: $crate::checked_function);
     };
     (@lanes $name:ident loops) => {};
     (@lanes $name:ident inverse) => {
-        $crate::for_each_function_of_inverse!($crate::evaluate_functions, $name);
+        $crate::for_functions!(inverse: $crate::evaluate_functions, $name);
     };
     (@inside loops) => {
         use super::PASSIVE;
-        $crate::for_each_function_of_loops!($crate::checked_arrays, of_loops);
+        $crate::for_functions!(loops: $crate::checked_arrays, of_loops);
     };
     (@inside inverse) => {
         use super::SOLUTIONS;
-        $crate::for_each_function_of_inverse!($crate::checked_arrays, of_inverse);
+        $crate::for_functions!(inverse: $crate::checked_arrays, of_inverse);
     };
     (@of_loops loops $(inverse)?: $($arguments:ident),+) => {
         checked::of_loops($($arguments),+)

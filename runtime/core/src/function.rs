@@ -34,7 +34,7 @@ macro_rules! functions {
     };
 }
 
-crate::for_all_functions!(functions);
+crate::for_functions!(loops inverse every: functions);
 
 macro_rules! list {
     ($list:ident: $($function:ident = $name:ident $arguments:tt -> $results:tt
@@ -43,9 +43,9 @@ macro_rules! list {
     };
 }
 
-crate::for_each_function!(list, ALL);
-crate::for_each_function_of_loops!(list, OF_LOOPS);
-crate::for_each_function_of_inverse!(list, OF_INVERSE);
+crate::for_functions!(every: list, ALL);
+crate::for_functions!(loops: list, OF_LOOPS);
+crate::for_functions!(inverse: list, OF_INVERSE);
 
 impl Function {
     /// Functions of every manipulator, in the order of generated code.

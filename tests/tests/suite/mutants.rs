@@ -178,7 +178,7 @@ macro_rules! functions {
         }
     };
 }
-abbe::for_each_function!(functions);
+abbe::for_functions!(every: functions);
 
 /// Generated manipulator with one wrong operation in one function.
 #[derive(Clone, Copy, Debug)]

@@ -7,73 +7,21 @@
 //! Python module. To add a function, add an entry here, its nodes in `chain::Model`, and the match
 //! arms that the compiler then requires.
 
-/// Passes the functions of every manipulator to the macro `$then`, after an optional identifier.
+/// Passes groups of functions to the macro `$then`, after an optional identifier: `every` for those
+/// of every manipulator, `loops` for those that only manipulators with loops have, `inverse` for
+/// that of manipulators whose inverse kinematics has a closed form. The group named last comes
+/// first.
 ///
 /// The rows 4–6 of `oriented` functions depend on the manipulator's orientation. A second text is
 /// for Rust only.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! for_each_function {
-    ($then:path $(, $passed_on:ident)?) => {
-        $crate::function_table!($then, ($($passed_on)?), {});
+macro_rules! for_functions {
+    (@ [] $then:path, [$($passed_on:ident)?], { $($entries:tt)* }) => {
+        $then! { $($passed_on)?: $($entries)* }
     };
-}
-
-/// Passes the functions that only manipulators with loops have to the macro `$then`, after an
-/// optional identifier.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! for_each_function_of_loops {
-    ($then:path $(, $passed_on:ident)?) => {
-        $crate::function_of_loops_table!($then, { $($passed_on)? });
-    };
-}
-
-/// Passes the function of manipulators whose inverse kinematics has a closed form to the macro
-/// `$then`, after an optional identifier.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! for_each_function_of_inverse {
-    ($then:path $(, $passed_on:ident)?) => {
-        $crate::function_of_inverse_table!($then, ($($passed_on)?), {});
-    };
-}
-
-/// Passes all functions to the macro `$then`, those that not every manipulator has last.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! for_all_functions {
-    ($then:path) => {
-        $crate::function_of_loops_table!($crate::function_of_inverse_before, { { $then } });
-    };
-}
-
-/// Passes the function of closed forms, then others, to what is to pass on all of them.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! function_of_inverse_before {
-    ({ $then:path } : $($others:tt)*) => {
-        $crate::function_of_inverse_table!($crate::function_table_before, ({ $then }), { $($others)* });
-    };
-}
-
-/// Passes the functions of every manipulator and then others to the macro in braces.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! function_table_before {
-    ({ $then:path } : $($others:tt)*) => {
-        $crate::function_table!($then, (), { $($others)* });
-    };
-}
-
-/// Entries of the functions that only manipulators with loops have.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! function_of_loops_table {
-    ($then:path, { $($passed_on:tt)* }) => {
-        $then! {
-            $($passed_on)*:
-
+    (@ [loops $($groups:ident)*] $then:path, $passed_on:tt, { $($others:tt)* }) => {
+        $crate::for_functions! { @ [$($groups)*] $then, $passed_on, {
             Passive = passive(q, s) -> (passive):
                 "Passive variables for which all loops close, reached continuously from home as `q` and `s` move from home to their \
                  values along a straight line.";
@@ -84,37 +32,22 @@ macro_rules! function_of_loops_table {
             LegForces = leg_forces(q, s, u) -> (leg_forces):
                 "Forces by which the loops close under the loads, to first order. The force of a leg is positive if it presses its \
                  ends apart.";
-        }
+
+            $($others)*
+        } }
     };
-}
-
-/// Entry of the function of manipulators whose inverse kinematics has a closed form, and others
-/// after it.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! function_of_inverse_table {
-    ($then:path, ($($passed_on:tt)*), { $($others:tt)* }) => {
-        $then! {
-            $($passed_on)*:
-
+    (@ [inverse $($groups:ident)*] $then:path, $passed_on:tt, { $($others:tt)* }) => {
+        $crate::for_functions! { @ [$($groups)*] $then, $passed_on, {
             Inverse = inverse(q, s, target) -> (solutions, found):
                 "All joint variables that bring the tool point to a pose. They are in the turns nearest to `q` that the limits \
                  permit, and a joint that is free to move there stays as in `q`.",
                 "A solution exists if its entry of `found` is 1; otherwise it is no solution.";
 
             $($others)*
-        }
+        } }
     };
-}
-
-/// Entries of the functions of every manipulator, and others after them.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! function_table {
-    ($then:path, ($($passed_on:ident)?), { $($others:tt)* }) => {
-        $then! {
-            $($passed_on)?:
-
+    (@ [every $($groups:ident)*] $then:path, $passed_on:tt, { $($others:tt)* }) => {
+        $crate::for_functions! { @ [$($groups)*] $then, $passed_on, {
             Transforms = transforms(q, s) -> (transforms):
                 "Local transforms `A_1 … A_n` and the tool `T`: columns x, y, z axis and position.";
 
@@ -170,7 +103,10 @@ macro_rules! function_table {
                  the real pose to `X*`.";
 
             $($others)*
-        }
+        } }
+    };
+    ($($groups:ident)+: $then:path $(, $passed_on:ident)?) => {
+        $crate::for_functions! { @ [$($groups)+] $then, [$($passed_on)?], {} }
     };
 }
 

@@ -33,8 +33,8 @@ macro_rules! types {
         )+
     };
 }
-crate::for_each_function!(types);
-crate::for_each_function_of_inverse!(types);
+crate::for_functions!(every: types);
+crate::for_functions!(inverse: types);
 
 macro_rules! batches {
     (: $($function:ident = $name:ident $arguments:tt -> $results:tt $($oriented:ident)?:
@@ -67,4 +67,4 @@ macro_rules! batches {
         }
     };
 }
-crate::for_each_function!(batches);
+crate::for_functions!(every: batches);
