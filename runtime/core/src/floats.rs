@@ -10,7 +10,8 @@ pub(crate) type Two = crate::x86::Sse2;
 pub(crate) type Two = [f64; 2];
 
 macro_rules! scalar {
-    ($float:ident, $sin_cos:expr $(, $each:ident)?; $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
+    ($float:ident, $sin_cos:expr $(, $each:ident)?; $($function:ident: $libm:ident),+;
+        $($of_two:ident: $libm_of_two:ident),+) => {
         impl Scalar for $float {
             #[inline]
             fn constant(value: f64) -> Self {
@@ -35,13 +36,15 @@ macro_rules! scalar {
                     { libm::$libm(self) }
                 }
             )+
-            #[inline]
-            fn atan2(self, x: Self) -> Self {
-                #[cfg(feature = "std")]
-                { $float::atan2(self, x) }
-                #[cfg(not(feature = "std"))]
-                { libm::$atan2(self, x) }
-            }
+            $(
+                #[inline]
+                fn $of_two(self, other: Self) -> Self {
+                    #[cfg(feature = "std")]
+                    { $float::$of_two(self, other) }
+                    #[cfg(not(feature = "std"))]
+                    { libm::$libm_of_two(self, other) }
+                }
+            )+
             #[inline]
             fn sign(self) -> Self {
                 if self > 0.0 { 1.0 } else if self < 0.0 { -1.0 } else { self * 0.0 }
@@ -67,21 +70,15 @@ macro_rules! scalar {
                 let (t, coefficients) = table.find(f64::from(self));
                 (t as $float, coefficients.map(|coefficient| coefficient as $float))
             }
-            #[inline]
-            fn powf(self, exponent: Self) -> Self {
-                #[cfg(feature = "std")]
-                { $float::powf(self, exponent) }
-                #[cfg(not(feature = "std"))]
-                { libm::$pow(self, exponent) }
-            }
         }
     };
 }
 
 scalar!(f64, sin_cos::scalar, each; tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs, exp: exp, ln: log;
-    atan2, pow);
+    atan2: atan2, powf: pow);
 #[cfg(feature = "std")]
-scalar!(f32, f32::sin_cos; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf, exp: expf, ln: logf; atan2f, powf);
+scalar!(f32, f32::sin_cos; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf, exp: expf, ln: logf;
+    atan2: atan2f, powf: powf);
 #[cfg(not(feature = "std"))]
 scalar!(f32, libm::sincosf; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf, exp: expf, ln: logf;
-    atan2f, powf);
+    atan2: atan2f, powf: powf);

@@ -92,6 +92,14 @@ pub fn all(manipulator: &dyn Sweepable, samples: usize) -> Result<(), Failure> {
 /// expression may use everything in scope at the macro call.
 #[macro_export]
 macro_rules! test_manipulator {
+    (@ $manipulator:expr; $($test:ident = $law:ident, $name:literal, $tolerance:ident;)+) => {$(
+        #[test]
+        fn $test() {
+            let found = laws::$law(&$manipulator, laws::SAMPLES);
+            let held = found.and_then(|found| found.within($name, laws::$tolerance));
+            held.unwrap_or_else(|failure| panic!("{failure}"));
+        }
+    )+};
     ($name:ident: $manipulator:expr) => {
         #[cfg(test)]
         mod $name {
@@ -99,56 +107,21 @@ macro_rules! test_manipulator {
             use super::*;
             use $crate::laws;
 
-            fn holds<T>(law: Result<T, laws::Failure>) -> T {
-                law.unwrap_or_else(|failure| panic!("{failure}"))
-            }
-
-            #[test]
-            fn outputs_are_finite_and_bad_inputs_are_refused() {
-                let found = holds(laws::contract(&$manipulator, laws::SAMPLES));
-                holds(found.within("outputs", laws::ROUNDING_TOLERANCE));
-            }
-
-            #[test]
-            fn batches_say_what_single_configurations_say() {
-                let found = holds(laws::batches(&$manipulator, laws::SAMPLES));
-                holds(found.within("batches", laws::ROUNDING_TOLERANCE));
-            }
-
-            #[test]
-            fn pose_is_the_product_of_the_transforms() {
-                let found = holds(laws::pose(&$manipulator, laws::SAMPLES));
-                holds(found.within("pose", laws::ROUNDING_TOLERANCE));
-            }
-
-            #[test]
-            fn error_jacobian_is_the_derivative_of_the_exact_chain() {
-                let found = holds(laws::error_jacobian(&$manipulator, laws::SAMPLES));
-                holds(found.within("error Jacobian", laws::DERIVATIVE_TOLERANCE));
-            }
-
-            #[test]
-            fn joint_jacobian_is_the_derivative_of_the_pose() {
-                let found = holds(laws::joint_jacobian(&$manipulator, laws::SAMPLES));
-                holds(found.within("joint Jacobian", laws::DERIVATIVE_TOLERANCE));
-            }
-
-            #[test]
-            fn parameter_jacobian_is_the_derivative_of_the_pose() {
-                let found = holds(laws::parameter_jacobian(&$manipulator, laws::SAMPLES));
-                holds(found.within("parameter Jacobian", laws::DERIVATIVE_TOLERANCE));
-            }
-
-            #[test]
-            fn sources_are_the_derivatives_of_the_exact_chain() {
-                let found = holds(laws::source_displacements(&$manipulator, laws::SAMPLES));
-                holds(found.within("sources", laws::DERIVATIVE_TOLERANCE));
+            $crate::test_manipulator! { @ $manipulator;
+                outputs_are_finite_and_bad_inputs_are_refused = contract, "outputs", ROUNDING_TOLERANCE;
+                batches_say_what_single_configurations_say = batches, "batches", ROUNDING_TOLERANCE;
+                pose_is_the_product_of_the_transforms = pose, "pose", ROUNDING_TOLERANCE;
+                error_jacobian_is_the_derivative_of_the_exact_chain = error_jacobian, "error Jacobian", DERIVATIVE_TOLERANCE;
+                joint_jacobian_is_the_derivative_of_the_pose = joint_jacobian, "joint Jacobian", DERIVATIVE_TOLERANCE;
+                parameter_jacobian_is_the_derivative_of_the_pose = parameter_jacobian, "parameter Jacobian", DERIVATIVE_TOLERANCE;
+                sources_are_the_derivatives_of_the_exact_chain = source_displacements, "sources", DERIVATIVE_TOLERANCE;
             }
 
             #[test]
             fn first_order_remainder_is_of_second_order() {
-                let found = holds(laws::remainder_slope(&$manipulator, laws::SAMPLES));
-                holds(found.within(laws::SLOPE_TOLERANCE));
+                let found = laws::remainder_slope(&$manipulator, laws::SAMPLES);
+                let held = found.and_then(|found| found.within(laws::SLOPE_TOLERANCE));
+                held.unwrap_or_else(|failure| panic!("{failure}"));
             }
         }
     };
