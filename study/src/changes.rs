@@ -180,11 +180,7 @@ pub fn find_symbol(document: &Document, span: Span, name: &str, spec: &Spec) -> 
         let help = format!("`abbe jacobian` sets joint variables by `{Q}`; a workspace moves them");
         return document.refuse(span, message, help);
     }
-    let parameters = spec.parameters.iter().enumerate();
-    let parameters = parameters.map(|(i, p)| (p.name.as_str(), Symbol::Parameter(i), p.dimension));
-    let inputs =
-        spec.inputs.iter().enumerate().map(|(i, u)| (u.name.as_str(), Symbol::Input(i), u.dimension));
-    let all = parameters.chain(inputs).collect::<Vec<_>>();
+    let all = spec.symbols().skip(spec.variables.len()).collect::<Vec<_>>();
     let names = all.iter().map(|(name, ..)| *name).collect::<Vec<_>>();
     let found = find_name(document, span, name, &names, "parameter or input")?;
     let (_, symbol, dimension) = all[found];

@@ -58,12 +58,7 @@ impl<'s> Names<'s> {
         let taken = taken.chain(called.flatten()).chain(tables);
         let used = taken.map(|name| (identifiers.key)(&name)).collect();
         let mut names = Self { spec, used, identifiers, counter: 0, symbols: HashMap::new() };
-        let variables = spec.variables.iter().map(|variable| &variable.name).enumerate();
-        let parameters = spec.parameters.iter().map(|parameter| &parameter.name).enumerate();
-        let inputs = spec.inputs.iter().map(|input| &input.name).enumerate();
-        variables.for_each(|(i, name)| names.insert(Symbol::Variable(i), name));
-        parameters.for_each(|(i, name)| names.insert(Symbol::Parameter(i), name));
-        inputs.for_each(|(i, name)| names.insert(Symbol::Input(i), name));
+        spec.symbols().for_each(|(name, symbol, _)| names.insert(symbol, name));
         names
     }
 

@@ -160,6 +160,18 @@ impl Spec {
         self.sources.get(source)?.enabled.then_some(before)
     }
 
+    /// Iterates over the names of the joint variables, the parameters and the inputs, with the symbol
+    /// and the dimension of each.
+    pub fn symbols(&self) -> impl Iterator<Item = (&str, Symbol, Dimension)> {
+        let dimension = |one: &Variable| one.kind.either(Dimension::NONE, Dimension::LENGTH);
+        let variables = self.variables.iter().map(move |one| (&one.name, dimension(one)));
+        let parameters = self.parameters.iter().map(|one| (&one.name, one.dimension));
+        let inputs = self.inputs.iter().map(|one| (&one.name, one.dimension));
+        let variables = (0..).map(Symbol::Variable).zip(variables);
+        let others = (0..).map(Symbol::Parameter).zip(parameters).chain((0..).map(Symbol::Input).zip(inputs));
+        variables.chain(others).map(|(symbol, (name, dimension))| (&name[..], symbol, dimension))
+    }
+
     /// Returns the name of a joint variable, parameter or input; empty for symbols that no spec
     /// declares.
     pub fn name_of(&self, symbol: Symbol) -> &str {
@@ -220,10 +232,7 @@ impl Spec {
     #[must_use]
     pub fn with_magnitudes_as_inputs(&self) -> Self {
         let mut spec = self.clone();
-        let names = spec.variables.iter().map(|variable| &variable.name);
-        let names = names.chain(spec.parameters.iter().map(|parameter| &parameter.name));
-        let names = names.chain(spec.inputs.iter().map(|input| &input.name));
-        let mut taken: HashSet<String> = names.cloned().collect();
+        let mut taken: HashSet<String> = self.symbols().map(|(name, ..)| name.to_owned()).collect();
         let mut numbers: HashMap<String, usize> = HashMap::new();
         let tunable = |source: &Source| source.enabled && source.class == Class::Repeatable;
         for source in spec.sources.iter_mut().filter(|source| tunable(source)) {

@@ -19,6 +19,7 @@
 //! ```
 
 use abbe::analysis::Measurand;
+use abbe_spec::expr::Symbol;
 use abbe_spec::value::{find_name, read_name};
 use abbe_spec::{Diagnostic, Item, Section, Spec};
 use serde::{Serialize, Serializer};
@@ -190,15 +191,13 @@ fn rows<S: Serializer>(measurand: &Measurand, serializer: S) -> Result<S::Ok, S:
 
 fn over(item: &Item<'_>, spec: &Spec) -> Option<Over> {
     let name = item.string()?;
-    let variables = spec.variables.iter().map(|variable| variable.name.as_str());
-    let parameters = spec.parameters.iter().map(|parameter| parameter.name.as_str());
-    let inputs = spec.inputs.iter().map(|input| input.name.as_str());
-    let names = variables.chain(parameters).chain(inputs).collect::<Vec<_>>();
+    let (names, symbols): (Vec<&str>, Vec<Symbol>) =
+        spec.symbols().map(|(name, symbol, _)| (name, symbol)).unzip();
     let index = find_name(item.document, item.span(), &name, &names, "variable, parameter or input")?;
-    let (variables, parameters) = (spec.variables.len(), spec.parameters.len());
-    Some(match index {
-        _ if index < variables => Over::Variable(index),
-        _ if index < variables + parameters => Over::Parameter(index - variables),
-        _ => Over::Input(index - variables - parameters),
-    })
+    match symbols[index] {
+        Symbol::Variable(i) => Some(Over::Variable(i)),
+        Symbol::Parameter(i) => Some(Over::Parameter(i)),
+        Symbol::Input(i) => Some(Over::Input(i)),
+        _ => None,
+    }
 }

@@ -11,11 +11,11 @@
 use std::io::Read;
 use std::path;
 
+use abbe::Manipulator;
 use abbe::analysis::Configuration;
-use abbe::{Manipulator, VariableKind};
 use abbe_spec::bounded::{UnreadableFile, not_text};
 use abbe_spec::csv_writer::meant;
-use abbe_spec::expr::{Dimension, LARGEST, Symbol};
+use abbe_spec::expr::{LARGEST, Symbol};
 use abbe_spec::value::{find_name, parse_value};
 use abbe_spec::{Diagnostic, Document, Input, Section, Spec};
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -208,14 +208,7 @@ fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
         Some((name, unit)) => (name.trim(), Some(unit.trim())),
         None => (heading, None),
     };
-    let dimension = |kind: VariableKind| kind.either(Dimension::NONE, Dimension::LENGTH);
-    let variables = spec.variables.iter().enumerate();
-    let variables = variables.map(|(i, v)| (v.name.as_str(), Symbol::Variable(i), dimension(v.kind)));
-    let parameters = spec.parameters.iter().enumerate();
-    let parameters = parameters.map(|(i, p)| (p.name.as_str(), Symbol::Parameter(i), p.dimension));
-    let inputs = spec.inputs.iter().enumerate();
-    let inputs = inputs.map(|(i, u)| (u.name.as_str(), Symbol::Input(i), u.dimension));
-    let all = variables.chain(parameters).chain(inputs).collect::<Vec<_>>();
+    let all = spec.symbols().collect::<Vec<_>>();
     let names = all.iter().map(|(name, ..)| *name).collect::<Vec<_>>();
 
     let document = Document::new("", name);

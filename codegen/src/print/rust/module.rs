@@ -81,8 +81,7 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
 /// spec.
 fn allowed_lints(spec: &Spec, routines: &Routines) -> Vec<&'static str> {
     let mut allowed = vec!["dead_code"];
-    let names = spec.parameters.iter().map(|p| &p.name).chain(spec.inputs.iter().map(|i| &i.name));
-    let mut names = names.chain(spec.variables.iter().map(|v| &v.name)).chain([&spec.name]);
+    let mut names = spec.symbols().map(|(name, ..)| name).chain([&spec.name[..]]);
     if names.any(|name| name.contains(|c: char| c.is_ascii_uppercase()) || name.contains("__")) {
         allowed.push("non_snake_case");
     }
