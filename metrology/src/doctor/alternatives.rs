@@ -3,10 +3,16 @@
 use super::kinematics::Kinematics;
 use crate::interpretations::{Chain, Change, SIGNS, Trial};
 
-/// Returns the trials in two stages: single changes and pairs; then all combinations of signs,
-/// alone and with one coupling, and, for up to six joints, all permutations.
+/// Returns the trials in three stages: single changes and pairs; then pairs of changes of the
+/// joints with base and tool elsewhere; then all combinations of signs, alone and with one
+/// coupling, and, for up to six joints, all permutations.
 pub(super) fn stages(kinematics: &Kinematics) -> impl Iterator<Item = Vec<Trial>> {
     let (joint_changes, end_changes) = (joint_changes(kinematics), end_changes(kinematics));
+    let two_elsewhere: Vec<Vec<Change>> = joint_changes
+        .iter()
+        .filter(|set| set.len() == 2 && !set.iter().any(|one| matches!(one, Change::Zero { .. })))
+        .cloned()
+        .collect();
     let pairs = move || {
         let trial = |joints: &Vec<Change>| {
             let ends = end_changes.iter().filter(|ends| is_tried_together(joints, ends)).cloned().collect();
@@ -20,7 +26,13 @@ pub(super) fn stages(kinematics: &Kinematics) -> impl Iterator<Item = Vec<Trial>
         let trial = |joints| Trial { joints, ends: ends.to_vec() };
         signs_and_orders(count, &couplings).into_iter().map(trial).collect()
     };
-    std::iter::once_with(pairs).chain(std::iter::once_with(signs_and_orders))
+    let elsewhere = move || {
+        let ends = vec![Change::BaseElsewhere, Change::ToolElsewhere];
+        two_elsewhere.into_iter().map(|joints| Trial { joints, ends: vec![ends.clone()] }).collect()
+    };
+    std::iter::once_with(pairs)
+        .chain(std::iter::once_with(elsewhere))
+        .chain(std::iter::once_with(signs_and_orders))
 }
 
 /// Returns changes of the joints: none, single ones, and pairs.

@@ -20,6 +20,10 @@ const LEVER: f64 = 0.3;
 /// tolerance is given.
 pub(crate) const MOST: f64 = 0.1;
 
+/// Ratio of the spread of the positions to that of the machine beyond which no base and no tool
+/// explain them.
+const UNLIKE: f64 = 8.0;
+
 /// Residual, in tolerances, up to which interpretations are kept.
 const NEAR: f64 = 2.0;
 
@@ -247,6 +251,10 @@ impl<'a> Search<'a> {
                 });
                 (changed.collect::<Vec<_>>(), self.with_ends(&parts, ends), [None; 2])
             } else if free.contains(&true) {
+                // No tool makes the motion of a machine that much larger or smaller.
+                if !(seen.spread / UNLIKE..=seen.spread * UNLIKE).contains(&of_machine) {
+                    continue;
+                }
                 if !can_be_fitted(&predicted[0], &seen.poses, oriented, free[1], limit) {
                     continue;
                 }
