@@ -38,6 +38,10 @@ pub(crate) struct Compensate {
     /// counts as 1 m
     #[arg(long, value_name = "LENGTH", default_value = TOLERANCE, allow_hyphen_values = true)]
     tolerance: String,
+    /// Length that weighs as much as 1 rad of the orientation where both cannot be reached, such as
+    /// 1m. [default: the position has priority]
+    #[arg(long, value_name = "LENGTH")]
+    weight: Option<String>,
     /// Write the corrected commands and their remaining errors to this CSV file
     #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -53,11 +57,12 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
     let mut map = map(arguments, &machine.spec)?;
     arguments.page.dated.date(&mut map.record);
     let tolerance = length("--tolerance", &arguments.tolerance, &machine.spec)?;
+    let weight = arguments.weight.as_ref().map(|text| length("--weight", text, &machine.spec)).transpose()?;
     let data = match arguments.poses {
         true => Data::read_wanted(&arguments.data, &map)?,
         false => Data::read_commanded(&arguments.data, &map)?,
     };
-    let job = compensate::Compensate { machine, map, data, poses: arguments.poses, tolerance };
+    let job = compensate::Compensate { machine, map, data, poses: arguments.poses, tolerance, weight };
     let mut outputs = Outputs::new(&job, arguments.common.writing.force);
     let out = arguments.out.as_deref();
     let failed = |error: io::Error| cannot_write(out.unwrap_or(Path::new("-")), &error);

@@ -4,7 +4,7 @@
 use abbe_spec::option::{NODES, SET};
 use std::io;
 
-use abbe::analysis::{compensated, sampling};
+use abbe::analysis::{Goal, compensated, sampling};
 use abbe::{Error, Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::csv_writer::{Csv, Heading};
@@ -74,7 +74,8 @@ pub fn write(
         notes.progress(node, total);
         notes.go_on()?;
         let q = node_position(&axes, node, count);
-        let done = compensated(&wide, None, &q, &machine.s, &u).map_err(|error| failed(&q, &error))?;
+        let done =
+            compensated(&wide, Goal::default(), &q, &machine.s, &u).map_err(|error| failed(&q, &error))?;
         let pair = machine
             .manipulator
             .pose(&q, &machine.s)

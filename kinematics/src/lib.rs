@@ -20,10 +20,10 @@ mod workspace;
 mod by_hand;
 
 pub use configuration::Configuration;
-use reach::{Inverse, SumLimits};
 pub use reach::{
-    InverseKinematics, Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle,
+    Goal, InverseKinematics, Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle,
 };
+use reach::{Inverse, SumLimits};
 pub use workspace::{
     Axis, BaseBox, JointSamples, Legs, Presentation, ReachedBox, STREAM, Show, Subset, ToolOrientation,
     Unreachable, WithInputs, Workspace, base_box, joint_grid, joint_samples, listed, one, platform_grid,

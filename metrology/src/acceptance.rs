@@ -13,11 +13,17 @@ use abbe_study::number;
 /// Names of the figures that can be limited.
 pub(crate) const FIGURE_NAMES: [&str; 4] = ["mean", "rms", "p95", "max"];
 
+/// Words that permit a fitted place on the tool.
+pub(crate) const TARGET: &str = "target";
+pub(crate) const FITTED: &str = "fitted";
+
 /// Acceptance limits on position errors, in the length unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Acceptance {
     /// Name of each limited figure, with its limit.
     pub limits: Vec<(&'static str, f64)>,
+    /// A place on the tool that is fitted to the judged rows is permitted.
+    pub is_target_fitted: bool,
 }
 
 /// Subject of a verdict, whose errors its figures are.
@@ -84,20 +90,27 @@ impl AcceptanceVerdict {
 }
 
 impl Acceptance {
-    /// Parses `mean 0.15 mm, max 0.3 mm`. Mistakes are reported under the name `option`.
+    /// Parses `mean 0.15 mm, max 0.3 mm`, with `target fitted` among them or not. Mistakes are
+    /// reported under the name `option`.
     pub fn read(option: &str, text: &str, length: LengthUnit) -> Result<Self, Diagnostics> {
         let document = Document::new(option, text);
-        let mut limits = Vec::new();
+        let mut read = Self::default();
         let mut at = 0;
         for part in text.split(',') {
             let start = at + part.len() - part.trim_start().len();
             let end = at + part.trim_end().len();
             at += part.len() + 1;
-            let name = text[start..end.max(start)].split_whitespace().next().unwrap_or_default();
+            let mut words = text[start..end.max(start)].split_whitespace();
+            if words.clone().eq([TARGET, FITTED]) {
+                read.is_target_fitted = true;
+                continue;
+            }
+            let name = words.next().unwrap_or_default();
             let Some(figure) = FIGURE_NAMES.into_iter().find(|figure| *figure == name) else {
                 let message = format!("unknown figure `{}`", name.escape_debug());
                 let help = format!(
-                    "write a figure and its limit: `mean 0.15 mm, max 0.3 mm`; the figures are {}",
+                    "write a figure and its limit: `mean 0.15 mm, max 0.3 mm`; the figures are {}; `{TARGET} {FITTED}` \
+                     permits a place on the tool that is fitted to the rows",
                     FIGURE_NAMES.join(", ")
                 );
                 document.mistake(Diagnostic::new(start..end.max(start), message).help(help));
@@ -105,9 +118,9 @@ impl Acceptance {
             };
             let value =
                 parse_value(&document, start + name.len()..end, length, Dimension::LENGTH, "this limit");
-            limits.extend(value.map(|value| (figure, value)));
+            read.limits.extend(value.map(|value| (figure, value)));
         }
-        document.finish(Some(Self { limits }))
+        document.finish(Some(read))
     }
 
     /// Returns the limit on the largest error; without one, the limit on the next figure in the
@@ -154,7 +167,8 @@ impl Acceptance {
     pub(crate) fn text(&self, length: LengthUnit) -> String {
         let limits =
             self.limits.iter().map(|(figure, limit)| format!("{figure} {}", number::length(*limit, length)));
-        limits.collect::<Vec<_>>().join(", ")
+        let fitted = self.is_target_fitted.then(|| format!("{TARGET} {FITTED}"));
+        limits.chain(fitted).collect::<Vec<_>>().join(", ")
     }
 }
 

@@ -48,7 +48,7 @@ impl Reads for Source<'_> {
 
 abbe_study::reads! {
     Positioning<'_>: data, without reading scale;
-    Compensate: machine map data, without poses tolerance;
+    Compensate: machine map data, without poses tolerance weight;
     Doctor<'_>: machine data, without within;
     Identify: machine map data test, without terms harmonics settings accept;
     Measure: machine map data, without accept;

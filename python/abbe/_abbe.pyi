@@ -295,14 +295,21 @@ class Machine:
         (8, 6)
         """
     def compensate(
-        self, q: _Joints, *, tolerance: _Length | None = None, progress: _Progress | None = None, **inputs: _Input
+        self,
+        q: _Joints,
+        *,
+        tolerance: _Length | None = None,
+        weight: _Length | None = None,
+        progress: _Progress | None = None,
+        **inputs: _Input,
     ) -> Commands:
         """Computes joint commands at which the real tool has the ideal pose of `q`. Returns Commands.
 
         `tolerance`: largest error allowed to remain at the tool point, in the length unit or as
-        text with a unit; 1 rad counts as 1 m; "0.001mm" by default. `inputs`: as for
-        `generalized_errors`. `progress(done, total)` is called at intervals. Commands beyond the
-        joint limits raise ValueError.
+        text with a unit; 1 rad counts as 1 m; "0.001mm" by default. `weight`: length that weighs as
+        much as 1 rad where both cannot be reached; without it the position has priority. `inputs`:
+        as for `generalized_errors`. `progress(done, total)` is called at intervals. Commands beyond
+        the joint limits raise ValueError.
         """
     def check(self) -> CheckReport:
         """Checks the spec, and compares J_e with the exact chain. The report has the model, its chain

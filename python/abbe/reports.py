@@ -1421,9 +1421,6 @@ class IdentifyReport(Report):
     condition: float | None
     """Condition number of the kept columns of the design matrix, each scaled to unit length."""
 
-    observability: Indices
-    """Observability indices."""
-
     groups: list[Indistinguishable]
     """Combinations of unknowns that cannot be distinguished, with the reason."""
 
@@ -1512,8 +1509,8 @@ class IdentifyReport(Report):
     """Profiles of joints; none if they were not tried, or do not reduce the cross-validation error significantly."""
 
     drift: ResidualDrift | None
-    """Drift of the residuals with the row order; none if there are too few rows for the test, or where notes doubt
-    some.
+    """Drift of the residuals with the row order; none if there are too few rows for the test, or where a place moved
+    between two rows.
     """
 
     unusable: list[LeftOut]
@@ -1578,27 +1575,6 @@ class ImportedFrame(Fields):
 
     follows: bool
     """The variable belongs to another joint."""
-
-
-class Indices(Fields):
-    """Observability indices of the singular values `σ_1 ≥ … ≥ σ_r` of the design matrix with `m` rows and columns of
-    unit length, without a unit; see `abbe::identify::Observability`.
-    """
-
-    o1: float
-    """`O1 = (σ_1 ⋯ σ_r)^(1/r) / √m`, without a unit."""
-
-    o2: float
-    """`O2 = σ_r / σ_1`, without a unit."""
-
-    o3: float
-    """`O3 = σ_r`, without a unit."""
-
-    o4: float
-    """`O4 = σ_r² / σ_1`, without a unit."""
-
-    o5: float
-    """`O5 = 1 / Σ 1/σ_i`, without a unit."""
 
 
 class Indistinguishable(Fields):
@@ -2203,7 +2179,9 @@ class MeasureReport(Report):
     """Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single configuration."""
 
     drift: ResidualDrift | None
-    """Drift test of the errors minus the repeatable sources; none for too few rows, or where notes doubt some."""
+    """Drift test of the errors minus the repeatable sources; none for too few rows, or where a place moved between
+    two rows.
+    """
 
     notes: list[str]
     """Rows that do not say what the map says of them."""

@@ -134,21 +134,24 @@ impl Machine {
     /// Computes joint commands at which the real tool has the ideal pose of `q`. Returns Commands.
     ///
     /// `tolerance`: largest error allowed to remain at the tool point, in the length unit or as
-    /// text with a unit; 1 rad counts as 1 m; "0.001mm" by default. `inputs`: as for
-    /// `generalized_errors`. `progress(done, total)` is called at intervals. Commands beyond the
-    /// joint limits raise ValueError.
-    #[pyo3(signature = (q, *, tolerance=None, progress=None, **inputs))]
+    /// text with a unit; 1 rad counts as 1 m; "0.001mm" by default. `weight`: length that weighs as
+    /// much as 1 rad where both cannot be reached; without it the position has priority. `inputs`:
+    /// as for `generalized_errors`. `progress(done, total)` is called at intervals. Commands beyond
+    /// the joint limits raise ValueError.
+    #[pyo3(signature = (q, *, tolerance=None, weight=None, progress=None, **inputs))]
     fn compensate<'py>(
         &self,
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
         tolerance: Option<&Bound<'py, PyAny>>,
+        weight: Option<&Bound<'py, PyAny>>,
         progress: Option<&Bound<'py, PyAny>>,
         inputs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Commands> {
         let description = abbe::Manipulator::description(&self.interpreter);
         let usual = PyString::new(py, compensate::options::TOLERANCE).into_any();
         let tolerance = length("tolerance", tolerance.unwrap_or(&usual), &self.machine.spec)?;
+        let weight = weight.map(|weight| length("weight", weight, &self.machine.spec)).transpose()?;
         let names = self.variable_names.bind(py);
         let signature = Function::RealPose.signature();
         let given = vec_of(numbers(q, "q", Some(names))?, "q", &signature.arguments[0], description)?;
@@ -158,7 +161,7 @@ impl Machine {
         let (q, nu) = (given.values, description.inputs.len());
         let count: usize = lead.iter().product();
         let work = |notes: &mut dyn abbe_study::Notes| {
-            let commands = compensate::CommandCorrector::new(&self.interpreter, tolerance)?;
+            let commands = compensate::CommandCorrector::new(&self.interpreter, tolerance, weight)?;
             let mut found = Vec::new();
             for i in 0..count {
                 notes.progress(i, count);

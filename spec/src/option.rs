@@ -91,6 +91,7 @@ options! {
     TO_URDF = "to", "urdf";
     UNITS_MM_DEG = "units", "mm,deg";
     WITHIN = "within";
+    WEIGHT_ONE_METRE = "weight", "1m";
 }
 
 impl Display for NamedOption {

@@ -1,12 +1,14 @@
-//! Pose of the measured frame from the pixels of one view of a flat board.
+//! Pose of the measured frame from the pixels of one view of a board.
 //!
-//! With `(x, y)` the undistorted corners and `(X, Y)` their coordinates on the board,
+//! With `(x, y)` the undistorted corners and `(X, Y)` their coordinates in a plane of the board,
 //! `(x, y, 1) ∝ H (X, Y, 1)` and `H ∝ [r_1 r_2 t]`: Zhang, *A flexible new technique for camera
-//! calibration*, 2000. Gauss-Newton steps then minimize the distances in the image plane.
+//! calibration*, 2000. Corners that lie in no plane give `x (1 + ε) = (r_x P + t_x) / t_z` with
+//! `ε = r_z P / t_z`, and with y alike: DeMenthon and Davis, *Model-based object pose in 25 lines of
+//! code*, 1995. Gauss-Newton steps then minimize the distances in the image plane.
 
 use std::borrow::Cow;
 
-use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix4, Matrix6, SMatrix, Vector3, Vector4, Vector6};
 
 use super::{Measurement, Model, Observation};
 use abbe_analysis::decompose::{svd3, symmetric_eigen};
@@ -14,7 +16,13 @@ use abbe_analysis::sampling::vectors::{cross, dot};
 use abbe_core::{Pose, displacement};
 
 /// Corner on the board, and `(x, y)` of its line of sight.
-type Sight = ([f64; 2], [f64; 2]);
+type Sight = ([f64; 3], [f64; 2]);
+
+/// Variance of corners beside their plane, relative to the largest, up to which they count as flat.
+const FLAT: f64 = 1e-3;
+
+/// Number of iterations for corners in no plane.
+const ITERATIONS: usize = 50;
 
 /// Board in one view, fitted without the machine.
 #[derive(Clone, Debug)]
@@ -50,15 +58,15 @@ impl Model<'_> {
         };
         let corners = readings.chunks_exact(2).zip(self.observables.chunks_exact(2));
         let corners = corners.filter_map(|(pixel, corner)| match (pixel, corner[0].corner) {
-            ([Some(u), Some(v)], [x, y, _]) => Some(([x, y], [*u, *v])),
+            ([Some(u), Some(v)], corner) => Some((corner, [*u, *v])),
             _ => None,
         });
-        let corners: Vec<([f64; 2], [f64; 2])> = corners.collect();
-        let sight = |(corner, pixel): &([f64; 2], [f64; 2])| (*corner, camera.undistorted(*pixel));
+        let corners: Vec<([f64; 3], [f64; 2])> = corners.collect();
+        let sight = |(corner, pixel): &([f64; 3], [f64; 2])| (*corner, camera.undistorted(*pixel));
         let sights: Vec<Sight> = corners.iter().map(sight).collect();
-        let board = refined(from_homography(&sights)?, &sights)?;
-        let square = |([x, y], [u, v]): &([f64; 2], [f64; 2])| {
-            let [a, b] = camera.pixel(board.apply([*x, *y, 0.0]));
+        let board = refined(initial(&sights)?, &sights)?;
+        let square = |(corner, [u, v]): &([f64; 3], [f64; 2])| {
+            let [a, b] = camera.pixel(board.apply(*corner));
             (a - u).powi(2) + (b - v).powi(2)
         };
         let square = corners.iter().map(square).sum::<f64>() / corners.len() as f64;
@@ -76,16 +84,61 @@ fn scaling(points: impl Iterator<Item = [f64; 2]> + Clone) -> Option<([f64; 2], 
     (square > 0.0).then(|| (mean, square.sqrt().recip()))
 }
 
-/// Returns the pose of the board in the camera from its homography; none for fewer than four
-/// corners, or if they are collinear.
-fn from_homography(sights: &[Sight]) -> Option<Pose> {
+/// Returns about the pose of the board in the camera; none for fewer than four corners, or if they
+/// are collinear.
+fn initial(sights: &[Sight]) -> Option<Pose> {
     if sights.len() < 4 {
         return None;
     }
-    let (from, a) = scaling(sights.iter().map(|(corner, _)| *corner))?;
+    let sum = sights.iter().map(|(corner, _)| Vector3::from(*corner)).sum::<Vector3<f64>>();
+    let mean = sum / sights.len() as f64;
+    let about = |corner: &[f64; 3]| Vector3::from(*corner) - mean;
+    let scatter = sights.iter().map(|(corner, _)| about(corner) * about(corner).transpose());
+    let svd = svd3(scatter.sum())?;
+    let (axes, variances) = (svd.u?, svd.singular_values);
+    let [x, y] = [0, 1].map(|k| axes.column(k).into_owned());
+    let plane = Pose([x.into(), y.into(), x.cross(&y).into(), mean.into()]).inverse();
+    let placed: Vec<Sight> = sights.iter().map(|(corner, sight)| (plane.apply(*corner), *sight)).collect();
+    let is_flat = variances[2] < FLAT * variances[0];
+    let found = if is_flat { from_homography(&placed) } else { from_perspective(&placed) };
+    Some(found?.then(&plane))
+}
+
+/// Returns the pose of corners in no plane.
+fn from_perspective(sights: &[Sight]) -> Option<Pose> {
+    let point = |corner: &[f64; 3]| Vector4::new(corner[0], corner[1], corner[2], 1.0);
+    let normal: Matrix4<f64> =
+        sights.iter().map(|(corner, _)| point(corner) * point(corner).transpose()).sum();
+    let inverse = normal.try_inverse()?;
+    let (mut toward, mut found) = (Vector4::new(0.0, 0.0, 0.0, 1.0), None);
+    for _ in 0..ITERATIONS {
+        let row = |k: usize| {
+            let scaled = sights.iter().map(|(corner, sight)| {
+                let point = point(corner);
+                point * (sight[k] * toward.dot(&point))
+            });
+            inverse * scaled.sum::<Vector4<f64>>()
+        };
+        let [across, down] = [0, 1].map(row);
+        let [x, y]: [Vector3<f64>; 2] = [across.xyz(), down.xyz()];
+        let depth = (x.norm() * y.norm()).sqrt().recip();
+        let svd = svd3(Matrix3::from_columns(&[x * depth, y * depth, x.cross(&y) * (depth * depth)]))?;
+        let rotation = (svd.u? * svd.v_t?).transpose();
+        let [a, b, c] = [0, 1, 2].map(|k| rotation.column(k).into());
+        found = Some(Pose([a, b, c, [across[3] * depth, down[3] * depth, depth]]));
+        let along = rotation.row(2) / depth;
+        toward = Vector4::new(along[0], along[1], along[2], 1.0);
+    }
+    found
+}
+
+/// Returns the pose of corners in the plane z = 0 from their homography; none if they are
+/// collinear.
+fn from_homography(sights: &[Sight]) -> Option<Pose> {
+    let (from, a) = scaling(sights.iter().map(|([x, y, _], _)| [*x, *y]))?;
     let (to, b) = scaling(sights.iter().map(|(_, sight)| *sight))?;
     let mut normal = SMatrix::<f64, 9, 9>::zeros();
-    for ([x, y], [u, v]) in sights {
+    for ([x, y, _], [u, v]) in sights {
         let (x, y) = (a * (x - from[0]), a * (y - from[1]));
         let (u, v) = (b * (u - to[0]), b * (v - to[1]));
         for row in
@@ -119,9 +172,9 @@ fn from_homography(sights: &[Sight]) -> Option<Pose> {
 fn refined(mut board: Pose, sights: &[Sight]) -> Option<Pose> {
     for _ in 0..20 {
         let (mut normal, mut right) = (Matrix6::zeros(), Vector6::zeros());
-        for ([x, y], sight) in sights {
+        for (corner, sight) in sights {
             // A further displacement (d, ω) of the board moves its corner P by d + ω × P.
-            let arm = board.turn([*x, *y, 0.0]);
+            let arm = board.turn(*corner);
             let point: [f64; 3] = core::array::from_fn(|i| arm[i] + board.0[3][i]);
             let z = point[2];
             if z <= 0.0 {

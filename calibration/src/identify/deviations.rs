@@ -13,8 +13,9 @@ impl EvaluatedModel<'_> {
     /// Returns position errors, model minus measurement: one vector for each measured point, in the
     /// axes of the instrument and the length unit.
     ///
-    /// A reading of a length has an error along its gradient; angles have none. A corner that a
-    /// camera sees has its vector from the line of sight of its pixel.
+    /// A reading of a length has an error along its gradient, an instrument that reads three
+    /// coordinates one vector; angles have none. A corner that a camera sees has its vector from
+    /// the line of sight of its pixel.
     pub fn deviations(&mut self, observation: &Observation) -> Result<Vec<[f64; 3]>, Failure> {
         let mut values = Vec::new();
         self.each_deviation(observation, |deviation| values.push(deviation))?;
@@ -44,14 +45,19 @@ impl EvaluatedModel<'_> {
                     return Ok(());
                 }
                 let geometry = self.geometry();
-                for (i, measured) in readings.iter().enumerate().take(model.observables.len()) {
-                    let Some(measured) = measured.filter(|_| !model.observables[i].kind.is_angle) else {
-                        continue;
-                    };
+                let mut of_instrument: Option<[f64; 3]> = None;
+                for (i, (measured, observable)) in readings.iter().zip(&model.observables).enumerate() {
+                    if observable.axis == 0 {
+                        of_instrument.take().into_iter().for_each(&mut take);
+                    }
+                    let Some(measured) = measured.filter(|_| !observable.kind.is_angle) else { continue };
                     let evaluation = self.evaluate(&geometry, i);
                     let along = geometry.base.turn(evaluation.along);
-                    take(along.map(|axis| (evaluation.value - measured) * axis));
+                    let mut sum = of_instrument.unwrap_or_default();
+                    (0..3).for_each(|k| sum[k] += (evaluation.value - measured) * along[k]);
+                    of_instrument = Some(sum);
                 }
+                of_instrument.into_iter().for_each(take);
             }
         }
         Ok(())

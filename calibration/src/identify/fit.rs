@@ -147,7 +147,7 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let mut expected = options.priors.clone();
     options.scaled.iter().for_each(|k| expected[*k] = expected[*k].map(|sigma| LARGE * sigma));
     let seen = Columns::of_rows(&plain, data, &at)?.with_expected(&expected);
-    let found = seen.knowable(&plain, data);
+    let found = seen.knowable(&plain);
     let rank = found.rank + found.weak.len();
     let basis = match options.priors.is_empty() {
         true => None,

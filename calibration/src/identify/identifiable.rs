@@ -9,7 +9,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::linearize::linearize;
-use super::{Failure, Model, Observability, Observation, Unknown};
+use super::{Failure, Model, Observation, Unknown};
 use abbe_analysis::decompose::singular_values;
 
 /// Relative threshold of the singular values of the matrix with columns of unit length; smaller
@@ -44,8 +44,9 @@ pub struct Identifiable {
     pub weak: Vec<Weak>,
     /// Singular values of the matrix with columns of unit length, largest first.
     pub singular_values: Vec<f64>,
-    /// Condition number and observability indices of the kept columns, each of unit length.
-    pub observability: Observability,
+    /// Condition number of the kept columns, each of unit length: the ratio of the largest and the
+    /// smallest singular value; 0 without any.
+    pub condition: f64,
     /// Ratio of the smallest nonzero singular value to the largest one that counts as zero;
     /// infinite if none does.
     pub gap: f64,
@@ -96,7 +97,7 @@ pub fn knowable(
     x: &[f64],
     expected: &[Option<f64>],
 ) -> Result<Identifiable, Failure> {
-    Ok(Columns::of_rows(model, data, x)?.with_expected(expected).knowable(model, data))
+    Ok(Columns::of_rows(model, data, x)?.with_expected(expected).knowable(model))
 }
 
 /// Returns the unknowns in order of preference.
@@ -180,7 +181,7 @@ impl Columns {
     }
 
     /// Finds the unknowns that the rows determine.
-    pub(super) fn knowable(&self, model: &Model, data: &[Observation]) -> Identifiable {
+    pub(super) fn knowable(&self, model: &Model) -> Identifiable {
         let all = by_preference(model);
         let is_placement = |k: &usize| model.unknowns[*k].is_placement();
         let (first, then): (Vec<usize>, Vec<usize>) = all.iter().copied().partition(is_placement);
@@ -188,7 +189,7 @@ impl Columns {
         let errors: Vec<usize> = all.into_iter().filter(is_error).collect();
         let kept = self.kept(&[&first, &then]);
         let errors = self.kept(&[&errors]).len();
-        self.identifiable(kept, errors, data.iter().map(Observation::count).sum())
+        self.identifiable(kept, errors)
     }
 
     /// Returns the sorted columns that represent all others, from groups in order of falling
@@ -271,14 +272,14 @@ impl Columns {
         columns.filter(|k| !others.contains(k) && take(k)).collect()
     }
 
-    fn identifiable(&self, kept: Vec<usize>, errors: usize, rows: usize) -> Identifiable {
+    fn identifiable(&self, kept: Vec<usize>, errors: usize) -> Identifiable {
         let gap = match (kept.len().checked_sub(1), self.singular_values.get(kept.len())) {
             (Some(last), Some(next)) if *next > 0.0 => self.singular_values[last] / next,
             _ => f64::INFINITY,
         };
         let basis = self.unit.select_columns(&kept);
-        let observability =
-            Observability::from_singular_values(&singular_values(basis).unwrap_or_default(), rows);
+        let values = singular_values(basis).unwrap_or_default();
+        let condition = values.first().zip(values.last()).map_or(0.0, |(first, last)| first / last);
         let mut rest = self.unit.clone();
         kept.iter().for_each(|k| take_out(&mut rest, *k));
         Identifiable {
@@ -288,7 +289,7 @@ impl Columns {
             redundant: self.redundant(&kept),
             kept,
             singular_values: self.singular_values.clone(),
-            observability,
+            condition,
             gap,
         }
     }

@@ -147,9 +147,7 @@ pub use robust::{Loss, robust_scale};
 pub use select::{Selection, select};
 pub use simulate::{Chance, Simulated, simulate};
 pub use station::Station;
-pub use statistics::{
-    FTest, Observability, deviation_beyond, f_beyond, f_test, student_beyond, student_factor,
-};
+pub use statistics::{FTest, deviation_beyond, f_beyond, f_test, student_beyond, student_factor};
 pub use tool_points::ToolPoints;
 pub use unknown::{Role, Unknown};
 pub use values::{Inputs, Points, Values};

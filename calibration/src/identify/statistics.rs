@@ -1,42 +1,6 @@
-//! Observability indices, tests of nested models, and tail probabilities.
+//! Tests of nested models, and tail probabilities.
 
 use nalgebra::DMatrix;
-
-/// Observability indices of singular values `σ_1 ≥ … ≥ σ_r` of columns of unit length, and `m`
-/// rows.
-///
-/// Sun and Hollerbach, *Observability index selection for robot calibration*, 2008.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Observability {
-    /// Condition number `σ_1 / σ_r`.
-    pub condition: f64,
-    /// `O1 = (σ_1 ⋯ σ_r)^(1/r) / √m`.
-    pub o1: f64,
-    /// `O2 = σ_r / σ_1`.
-    pub o2: f64,
-    /// `O3 = σ_r`.
-    pub o3: f64,
-    /// `O4 = σ_r² / σ_1`.
-    pub o4: f64,
-    /// `O5 = 1 / Σ 1/σ_i`.
-    pub o5: f64,
-}
-
-impl Observability {
-    /// Computes the indices; all are 0 without singular values.
-    pub(super) fn from_singular_values(values: &[f64], rows: usize) -> Self {
-        let (Some(first), Some(last)) = (values.first(), values.last()) else { return Self::default() };
-        let r = values.len() as f64;
-        Self {
-            condition: first / last,
-            o1: (values.iter().map(|v| v.ln()).sum::<f64>() / r).exp() / (rows.max(1) as f64).sqrt(),
-            o2: last / first,
-            o3: *last,
-            o4: last * last / first,
-            o5: 1.0 / values.iter().map(|v| 1.0 / v).sum::<f64>(),
-        }
-    }
-}
 
 /// F-test of a model against one nested in it.
 #[derive(Clone, Copy, Debug, PartialEq)]

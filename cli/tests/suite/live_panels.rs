@@ -121,6 +121,11 @@ fn rows_of_an_identification_have_the_errors_of_its_report() {
                 assert!((mean(key) - expected).abs() < 1e-9, "{key}: {} for {expected}", mean(key));
             }
         }
+        // The panel has the machine that was found, and the table below it every row.
+        let names = panel["sources"].as_array().unwrap().iter().map(|source| source["name"].to_string());
+        assert!(names.clone().any(|name| name.contains("identified")), "{:?}", names.collect::<Vec<_>>());
+        let table = &text[text.find("Row by row").unwrap()..];
+        assert!(table[..table.find("</table>").unwrap()].matches("<tr").count() == rows.len() + 1);
         // The identified errors are all that is between the point and the ideal one.
         let between = distance_from_ideal(&arm, &panel, 0, &serde_json::json!([0, 0, 0]));
         assert!(between < 2.0 && between > 0.0, "{between}");

@@ -162,7 +162,7 @@ fn files_of_another_form_are_refused() {
         ("position (mm),1+ (um)\n", "there are no readings"),
         (
             "0,1,2\n1,1,3\n",
-            "Put a line with 3 names above it, such as `position (mm),direction,deviation (um)`",
+            "Put a line with its 3 names, in the order of the columns, above it, such as `position (mm),direction,deviation (um)`",
         ),
         ("0,1,2\n1,1,3\n", "the file has no heading: its first line is numbers"),
     ];

@@ -22,7 +22,7 @@ mod target_search;
 #[cfg(test)]
 mod tests;
 
-pub use compensate::compensated;
+pub use compensate::{Goal, compensated};
 pub(crate) use inverse::Inverse;
 pub use inverse::inverse;
 pub use inverses::InverseKinematics;

@@ -2,11 +2,12 @@
 
 use nalgebra::{DMatrix, Matrix6xX, SVD, Vector3};
 
+use super::Goal;
 use super::real_tool::RealTool;
 use crate::{decompose::singular_values, sampling};
 use abbe_core::compensator::{Compensated, norms};
 use abbe_core::twist;
-use abbe_core::{Error, Manipulator, Pose, VariableKind};
+use abbe_core::{Error, Manipulator, VariableKind};
 
 /// Remaining error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +48,7 @@ const SINGULAR: f64 = 1e-6;
 /// the length unit) and `angle` (rad). Errors as for [`compensated`](super::compensated()).
 pub fn obstacle(
     manipulator: &dyn Manipulator,
-    target: Option<&Pose>,
+    goal: Goal<'_>,
     command: &[f64],
     s: &[f64],
     u: &[f64],
@@ -63,7 +64,7 @@ pub fn obstacle(
     };
     let axis = left.normalize();
     let ideal = manipulator.pose(command, s)?;
-    let mut tool = RealTool::new(manipulator, s, u, target.unwrap_or(&ideal), command)?;
+    let mut tool = RealTool::new(manipulator, s, u, goal.target.unwrap_or(&ideal), command, goal.weight)?;
     let held: Vec<usize> = (0..command.len()).filter(|j| tool.limits[*j].contains(&found.q[*j])).collect();
     let before = tool.left_at(&found.q)?;
     let closed = tool.limits.clone();

@@ -15,8 +15,8 @@ use abbe_core::{
     Description, Error, Manipulator, Orientation, Pose, deviation, drawn_pose, repeatable_magnitudes,
 };
 
-/// `w` in metres: first that of the compensator, then so small that the orientation does not affect
-/// the position.
+/// `w` in metres, unless it is given: first that of the compensator, then so small that the
+/// orientation does not affect the position.
 const TURN: [f64; 2] = [1e-3, 1e-5];
 /// `λ` in metres.
 const DEPARTURE: f64 = 1e-10;
@@ -57,6 +57,8 @@ pub(super) struct RealTool<'a> {
     /// One metre, and one arm length, in the length unit.
     metre: f64,
     arm: f64,
+    /// `w` of the descents, one after the other, in metres.
+    turns: [f64; 2],
 }
 
 /// State of a descent.
@@ -74,13 +76,15 @@ impl<'a> RealTool<'a> {
         u: &'a [f64],
         target: &'a Pose,
         command: &'a [f64],
+        weight: Option<f64>,
     ) -> Result<Self, Error> {
         let description = manipulator.description();
         let magnitudes = repeatable_magnitudes(description);
         let metre = 1.0 / description.length.in_metres();
         let arm = sampling::arm_length(manipulator, s)?;
         let limits = description.variables.iter().map(|variable| variable.limits).collect();
-        Ok(Self { manipulator, description, s, u, target, command, magnitudes, limits, metre, arm })
+        let turns = weight.map_or(TURN, |weight| [weight / metre; 2]);
+        Ok(Self { manipulator, description, s, u, target, command, magnitudes, limits, metre, arm, turns })
     }
 
     /// Returns whether a ΔX is negligible.
@@ -92,12 +96,13 @@ impl<'a> RealTool<'a> {
     /// Returns the best commands near the given ones, the remaining error, and whether the steps
     /// converged.
     pub(super) fn nearest(&self, first: &[f64]) -> Result<(Vec<f64>, [f64; 6], bool), Error> {
-        let (mut best, _) = self.steps(self.place(self.within(first.iter().copied()))?, TURN[0], COARSE)?;
+        let (mut best, _) =
+            self.steps(self.place(self.within(first.iter().copied()))?, self.turns[0], COARSE)?;
         if !self.arrived(&best.after) && self.may_gain(&best) {
             for start in 0..=STARTS {
                 // A start that cannot be evaluated is skipped.
                 let found =
-                    self.place(self.start(start)).and_then(|place| self.steps(place, TURN[0], COARSE));
+                    self.place(self.start(start)).and_then(|place| self.steps(place, self.turns[0], COARSE));
                 if let Ok((found, _)) = found
                     && self.left(&found) < self.left(&best)
                 {
@@ -141,7 +146,7 @@ impl<'a> RealTool<'a> {
 
     fn refined(&self, mut place: DescentState) -> Result<(DescentState, bool), Error> {
         let mut rest = false;
-        for turn in TURN {
+        for turn in self.turns {
             (place, rest) = self.steps(place, turn, NOTHING)?;
         }
         Ok((place, rest))
@@ -179,9 +184,9 @@ impl<'a> RealTool<'a> {
         Ok(self.left(&self.place(q.to_vec())?))
     }
 
-    /// Returns the weighted remaining error, dominated by position.
+    /// Returns the weighted remaining error, dominated by position unless a weight is given.
     pub(super) fn left(&self, place: &DescentState) -> f64 {
-        self.cost(place, TURN[1])
+        self.cost(place, self.turns[1])
     }
 
     fn cost(&self, place: &DescentState, turn: f64) -> f64 {

@@ -21,9 +21,14 @@ pub struct CorrectedCommand {
 
 impl<'a> CommandCorrector<'a> {
     /// Creates a corrector for a machine. `tolerance` is the permitted error of the tool point in
-    /// the length unit; for angles 1 rad counts as 1 m.
-    pub fn new(manipulator: &'a dyn Manipulator, tolerance: f64) -> Result<Self, Diagnostics> {
-        Task::new(manipulator, false, tolerance).map(Self)
+    /// the length unit; for angles 1 rad counts as 1 m. `weight` is the length that weighs as much
+    /// as 1 rad where both cannot be reached; `None` gives the position priority.
+    pub fn new(
+        manipulator: &'a dyn Manipulator,
+        tolerance: f64,
+        weight: Option<f64>,
+    ) -> Result<Self, Diagnostics> {
+        Task::new(manipulator, false, tolerance, weight).map(Self)
     }
 
     /// Returns the command that brings the real tool to the pose of the ideal tool at `q`, with the

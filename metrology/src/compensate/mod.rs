@@ -36,6 +36,9 @@ pub struct Compensate {
     /// Permitted remaining error of the tool point, in the length unit; for angles 1 rad counts as
     /// 1 m.
     pub tolerance: f64,
+    /// Length that weighs as much as 1 rad of the orientation where both cannot be reached, in the
+    /// length unit; `None` gives the position priority.
+    pub weight: Option<f64>,
 }
 
 /// Corrected commands, and the errors of the machine before and after.
@@ -53,6 +56,9 @@ pub struct Report {
     pub before: NormStatistics,
     /// Errors with the corrected commands.
     pub after: NormStatistics,
+    /// Length that weighs as much as 1 rad, in the length unit; none where the position has
+    /// priority.
+    pub weight: Option<f64>,
     /// Number of independent tool motions, from 0 to 6.
     pub mobility: usize,
     /// Joints that the map fixes: they are not corrected.
@@ -163,10 +169,11 @@ impl NormStatistics {
 impl Compensate {
     /// Returns the options that the figures depend on.
     fn options(&self) -> Vec<(&'static str, String)> {
-        let Self { machine, map: _, data: _, poses, tolerance } = self;
+        let Self { machine, map: _, data: _, poses, tolerance, weight } = self;
         let poses = if *poses { "yes" } else { "" };
-        let tolerance = number::length(*tolerance, machine.spec.length);
-        machine.options_with([("poses", poses.to_owned()), ("tolerance", tolerance)])
+        let [tolerance, weight] = [Some(*tolerance), *weight]
+            .map(|size| size.map_or(String::new(), |size| number::length(size, machine.spec.length)));
+        machine.options_with([("poses", poses.to_owned()), ("tolerance", tolerance), ("weight", weight)])
     }
 
     /// Corrects all rows and returns them in the report.
@@ -186,7 +193,8 @@ impl Compensate {
         notes: &mut dyn Notes,
         mut take: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<Report, E> {
-        let Self { machine, map, tolerance, .. } = self;
+        let Self { machine, map, tolerance, weight, .. } = self;
+        map.require_joints("a compensation")?;
         if self.poses {
             check_poses(map)?;
         }
@@ -203,7 +211,7 @@ impl Compensate {
             warn_of_extrapolation(&machine.spec, &*manipulator, &[[0.0; 3]], "rows", configurations(), notes);
         let deviation =
             ToolPointDeviation::at(&machine.spec, &*manipulator, &configurations().collect::<Vec<_>>());
-        let task = Task::new(&*manipulator, self.poses, *tolerance)?;
+        let task = Task::new(&*manipulator, self.poses, *tolerance, *weight)?;
         let base_frame = BaseFramePoses::new(map, &data);
         let (mut row_summary, mut norms) = (RowSummary::default(), [[RunningSums::default(); 2]; 2]);
         let mut unusable = data.unusable.clone();
@@ -232,6 +240,7 @@ impl Compensate {
             length: machine.spec.length.symbol(),
             compensated: row_summary.rows - row_summary.failed,
             tolerance: *tolerance,
+            weight: *weight,
             mobility: task.mobility,
             held,
             deviation,

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use abbe::analysis::{
-    ReachError, Target, compensated, in_order_until, inverse, mobility, obstacle, sampling,
+    Goal, ReachError, Target, compensated, in_order_until, inverse, mobility, obstacle, sampling,
 };
 use abbe::compensator::{Compensated, norms};
 use abbe::identify::{Measurement, Observation};
@@ -70,6 +70,8 @@ pub(super) struct Task<'a> {
     poses: bool,
     /// Permitted remaining error, in the length unit.
     tolerance: f64,
+    /// Length that weighs as much as 1 rad, in the length unit; `None` gives the position priority.
+    weight: Option<f64>,
     /// Number of independent tool motions, from 0 to 6.
     pub(super) mobility: usize,
 }
@@ -88,12 +90,13 @@ impl<'a> Task<'a> {
         manipulator: &'a dyn Manipulator,
         poses: bool,
         tolerance: f64,
+        weight: Option<f64>,
     ) -> Result<Self, Diagnostics> {
         let description = manipulator.description();
         let s = sampling::nominal_parameters(description);
         let mobility = mobility(manipulator, &s);
         let mobility = mobility.map_err(|error| mistake::whole(&description.name, &error))?;
-        Ok(Self { manipulator, description, s, poses, tolerance, mobility })
+        Ok(Self { manipulator, description, s, poses, tolerance, weight, mobility })
     }
 
     /// Corrects one command. Also returns the reason for incomplete compensation.
@@ -206,14 +209,14 @@ fn correct_observation(task: &Task<'_>, observation: &Observation) -> Result<Cor
 }
 
 fn corrected(task: &Task<'_>, target: Option<&Pose>, start: &[f64], u: &[f64]) -> Result<Corrected, String> {
-    let Task { manipulator, description, s, tolerance, mobility, .. } = task;
+    let Task { manipulator, description, s, tolerance, weight, mobility, .. } = task;
     let failed = |error| evaluation_message(description, &error);
-    let found = compensated(*manipulator, target, start, s, u).map_err(failed)?;
+    let goal = Goal { target, weight: *weight };
+    let found = compensated(*manipulator, goal, start, s, u).map_err(failed)?;
     sums_within_limits(description, &found.q)?;
     // With fewer than six independent motions only the tool point is a target.
     let angle = if *mobility < 6 { f64::INFINITY } else { tolerance * description.length.in_metres() };
-    let obstacle =
-        obstacle(*manipulator, target, start, s, u, &found, [*tolerance, angle]).map_err(failed)?;
+    let obstacle = obstacle(*manipulator, goal, start, s, u, &found, [*tolerance, angle]).map_err(failed)?;
     let variables = description.variables.iter().zip(start.iter().zip(&found.q));
     let turns = variables.filter(|(variable, _)| variable.kind == VariableKind::Revolute);
     let largest_turn = turns.map(|(_, (from, to))| (to - from).abs()).fold(0.0, f64::max);

@@ -2,6 +2,7 @@
 
 use super::map::Base;
 use super::turn::Order;
+use crate::acceptance::FITTED;
 
 pub(super) const BASES: [(&str, Base); 3] =
     [("known", Base::Known), ("unknown", Base::Unknown), ("exact", Base::Exact)];
@@ -24,6 +25,9 @@ pub(super) const QUATERNION_ORDERS: [(&str, Order); 2] = [("wxyz", Order::Wxyz),
 
 /// Commands that rows hold, each with `true` for those after the correction.
 pub(super) const COMMANDS: [(&str, bool); 2] = [("programmed", false), ("corrected", true)];
+
+/// Places on the tool of an acceptance, each with `true` if it may be fitted to the judged rows.
+pub(super) const JUDGED_TARGETS: [(&str, bool); 2] = [("stated", false), (FITTED, true)];
 
 /// Mounts of a camera, each with `true` if the camera is on the tool.
 pub(super) const MOUNTS: [(&str, bool); 2] = [("tool", true), ("room", false)];

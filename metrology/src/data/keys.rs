@@ -6,7 +6,9 @@ use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, T
 use abbe_spec::keys::When::{Always, Has, Is, Lacks};
 use abbe_spec::keys::{Rule, words};
 
-use super::choices::{BASES, COMMANDS, INTRINSIC_CHOICES, MOUNTS, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN};
+use super::choices::{
+    BASES, COMMANDS, INTRINSIC_CHOICES, JUDGED_TARGETS, MOUNTS, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN,
+};
 use super::target_frame::TARGET_FRAMES;
 use super::turn::EULER_ORDERS;
 
@@ -16,6 +18,7 @@ const COLUMN: Value = Text("name of a column");
 const COLUMNS: Value = List("three names of columns", Some(3), &COLUMN);
 const LENGTH_UNIT: Value = Text("unit of length");
 const VECTOR: Value = List("three numbers", Some(3), &NUMBER);
+const CORNER: Value = Either("two or three numbers", &[List("two numbers", Some(2), &NUMBER), VECTOR]);
 const QUATERNION_VALUE: Value = List("four numbers, w x y z", Some(4), &NUMBER);
 const MATRIX: Value = List("rows of numbers", None, &List("", None, &NUMBER));
 const MAYBE: Value = Either("number, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]);
@@ -38,8 +41,10 @@ const OPTIONAL: [&str; 10] = [
 abbe_spec::tables! {
     FILE: ["the file"], [
         "data": Table("[data]"), "-", "required", "Name of the data and uncertainty of the instrument";
-        "joints": Names("table of `VARIABLE = …`", &Table("[joints.NAME]")), "-", "required",
+        "joints": Names("table of `VARIABLE = …`", &Table("[joints.NAME]")), "-", "one of the two",
             "Columns of the joint variables, or their constant values; every variable needs one";
+        "command_pose": Table("[pose]"), "-", "one of the two",
+            "Columns of the pose of the tool that the controller shows, with the keys of `[pose]`, where it gives no joints";
         "inputs": Names("table of `INPUT = …`", &Table("[inputs.NAME]")), "-", "the nominal values",
             "Columns of the inputs, or their constant values";
     ]
@@ -65,7 +70,7 @@ abbe_spec::tables! {
         "accept": Table("[accept]"), "-", "no limits",
             "Limits for the errors of the machine in `measure`, and for those of the identified model in `identify`; without any, there is no verdict";
         "sight": Table("[sight]"), "-", "unobstructed",
-            "Line of sight of the instrument: `plan` and `simulate` take configurations alone in which it sees the targets";
+            "Line of sight of the instrument: `plan` and `simulate --samples` take configurations alone in which it sees the targets";
         "record": Table("[record]"), "-", "nothing stated",
             "Statements about the run for the pages of `measure`, `identify`, `monitor` and `compensate`";
     ]
@@ -164,8 +169,8 @@ abbe_spec::tables! {
         "board": List("two numbers", Some(2), &NUMBER), "1", "one of the two",
             "Inner corners of a chessboard: number in a row, and number of rows; the corners are numbered row by row, as OpenCV does";
         "pitch": NUMBER, "length unit", "required for `board`", "Distance of neighbouring corners";
-        "corners": List("two numbers for each corner", None, &List("", Some(2), &NUMBER)), "length unit", "one of the two",
-            "Positions of the corners on a flat board, such as those of its tags";
+        "corners": List("two or three numbers for each corner", None, &CORNER), "length unit", "one of the two",
+            "Positions of the corners on the board, such as those of its tags: x, y, and z unless it is flat";
         "image": List("two numbers", Some(2), &NUMBER), "px", "required for `\"camera\"`",
             "Width and height of the image; a row with a corner outside is not used";
         "focal": List("two numbers", Some(2), &NUMBER), "px", "required for `\"camera\"`", "Focal lengths fx and fy";
@@ -233,6 +238,7 @@ abbe_spec::tables! {
         "rms": NUMBER, "length unit", "no limit", "Limit of the root mean square of the position error";
         "p95": NUMBER, "length unit", "no limit", "Limit of the 95th percentile of the position error";
         "max": NUMBER, "length unit", "no limit", "Limit of the largest position error";
+        "target": Choice(|| words(&JUDGED_TARGETS)), "-", "`\"stated\"`", "The place of a target on the tool: `\"fitted\"` permits one that the map does not state, and is fitted to the judged rows";
     ]
     RECORD: ["[record]"], [
         "date": TEXT, "-", "not stated", "Date of the measurement, optionally with a time: `2026-03-14`";
@@ -267,6 +273,7 @@ pub fn rules() -> Vec<Rule> {
     let rule = |table, when, then| Rule { table, when, then };
     let mut rules = vec![
         rule("the file", Always, NeedsOne(FORMS.names().collect())),
+        rule("the file", Always, NeedsOne(vec!["joints", "command_pose"])),
         rule(
             "the file",
             Lacks(vec!["instrument"]),

@@ -9,6 +9,7 @@ use abbe::identify::{Measurement, Observation, Uncertainty};
 use abbe_spec::{Diagnostics, Spec};
 
 use super::column::{Channel, Column, Scale};
+use super::command_pose::CommandPose;
 use super::configurations::resolution;
 use super::instrument::Instruments;
 use super::sight::Sight;
@@ -98,6 +99,8 @@ pub struct Map {
     pub is_newly_stationed: bool,
     /// Channel of each variable of the spec.
     pub joints: Vec<Channel>,
+    /// Pose of the tool from which the joints follow, in place of their columns.
+    pub(super) command_pose: Option<CommandPose>,
     /// Channel of each input of the spec.
     pub inputs: Vec<Channel>,
     /// Measured quantity.
@@ -141,6 +144,7 @@ impl Map {
             record: RunRecord::default(),
             is_newly_stationed: false,
             joints: joints.collect(),
+            command_pose: None,
             inputs: inputs.collect(),
             layout: Layout::Point([(); 3].map(|()| column("")), 1.0),
             group: None,
@@ -301,6 +305,15 @@ impl Map {
         Err(mistake::with_help(&self.path, message, help))
     }
 
+    /// Returns an error if rows have poses in place of the joints, which `task` needs.
+    pub(crate) fn require_joints(&self, task: &str) -> Result<(), Diagnostics> {
+        if self.command_pose.is_none() {
+            return Ok(());
+        }
+        let message = format!("{task} needs joints, and this map has `[command_pose]` in place of them");
+        Err(mistake::with_help(&self.path, message, "name columns for the joints in `[joints]`"))
+    }
+
     /// Returns the text of its file.
     pub fn text(&self) -> &str {
         &self.text
@@ -371,12 +384,14 @@ impl Map {
         self.instruments().and_then(|all| all.setup.as_ref())
     }
 
-    /// Returns the columns of joints and inputs.
+    /// Returns the columns of joints, or of the pose in place of them, and inputs.
     pub(super) fn commanded(&self) -> impl Iterator<Item = &Column> {
-        self.joints.iter().chain(&self.inputs).filter_map(|channel| match channel {
+        let poses = self.command_pose.iter().flat_map(CommandPose::columns);
+        let channels = self.joints.iter().chain(&self.inputs).filter_map(|channel| match channel {
             Channel::Column(column, _) => Some(column),
             Channel::Fixed(_) | Channel::FromRows(_) => None,
-        })
+        });
+        poses.chain(channels)
     }
 
     /// Returns the columns of the measurement.

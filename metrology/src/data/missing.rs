@@ -68,7 +68,7 @@ pub(super) fn not_a_heading(header: &[String], wanted: &[&str]) -> Option<String
         all => all.iter().all(is_number).then(|| {
             let names = if wanted.len() == all.len() { format!(", such as `{}`", wanted.join(",")) } else { String::new() };
             let count = all.len();
-            format!("the file has no heading: its first line is numbers. Put a line with {count} names above it{names}")
+            format!("the file has no heading: its first line is numbers. Put a line with its {count} names, in the order of the columns, above it{names}")
         }),
     }
 }

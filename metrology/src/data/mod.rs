@@ -8,6 +8,7 @@
 mod cells;
 mod choices;
 mod column;
+mod command_pose;
 mod completed;
 mod configurations;
 mod dated;

@@ -9,8 +9,9 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::{Diagnostic, Diagnostics, Spec};
 
-use super::choices::{BASES, COMMANDS, QUATERNION_ORDERS};
+use super::choices::{BASES, COMMANDS, JUDGED_TARGETS, QUATERNION_ORDERS};
 use super::column::Column;
+use super::command_pose::CommandPose;
 use super::configurations::resolution;
 use super::keys;
 use super::map::{Base, Layout, Map, Target};
@@ -21,7 +22,7 @@ use super::read_places::{found_places, placement, sight, stations};
 use super::read_values::{column, columns, deviation, initial_deviation, unit};
 use super::target_frame::TargetFrame;
 use super::turn::{EULER_ORDERS, Turn};
-use crate::acceptance::{Acceptance, FIGURE_NAMES};
+use crate::acceptance::{Acceptance, FIGURE_NAMES, TARGET};
 use abbe_study::{RunRecord, check_date, named};
 
 impl Map {
@@ -84,7 +85,21 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
     }
     root.check_keys(&[&keys::FILE, &keys::FORMS, &keys::STANDS]);
     let head = root.required("data")?.table("[data]", &[&keys::DATA])?;
-    let joints = joints(root, spec);
+    let command_pose = root.get("command_pose");
+    let (joints, command_pose) = match (&command_pose, root.get("joints")) {
+        (Some(item), None) => {
+            let section = item.named("[command_pose]")?;
+            section.check_keys(&[&keys::POSE, &keys::TURN]);
+            let (position, factor, turn) = pose(&section)?;
+            let read = CommandPose { position, factor, turn, spec: Box::new(spec.clone()) };
+            (Some(CommandPose::joints(spec)), Some(read))
+        }
+        (Some(item), Some(_)) => {
+            let help = "keep one of them: `[joints]`, if the file has joints";
+            return item.refuse_key("`[command_pose]` stands in place of `[joints]`", help);
+        }
+        _ => (joints(root, spec), None),
+    };
     let inputs = inputs(root, spec);
     let named = |key: &str| head.get(key).map_or(Some(None), |item| column(&item).map(Some));
     let (group, direction, time, setup) = (named("group"), named("direction"), named("time"), named("setup"));
@@ -143,6 +158,7 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
         record: record?,
         is_newly_stationed: false,
         joints: joints?,
+        command_pose,
         inputs: inputs?,
         layout: layout?,
         group: group?,
@@ -183,23 +199,31 @@ fn layout(
         return targets(&form, frame);
     }
     let section = form.named(format!("[{}]", form.key))?;
-    let factor = unit(&section, Dimension::LENGTH);
+    let factor = || unit(&section, Dimension::LENGTH);
     match form.key.as_str() {
         "point" => {
             section.check_keys(&[&keys::POINT]);
-            Some(Layout::Point(columns(&section, "columns")?, factor?))
+            let (columns, factor) = (columns(&section, "columns"), factor());
+            Some(Layout::Point(columns?, factor?))
         }
         "difference" => {
             section.check_keys(&[&keys::DIFFERENCE]);
-            let target = columns(&section, "target");
-            Some(Layout::Difference(target?, columns(&section, "difference")?, factor?))
+            let [target, difference] = ["target", "difference"].map(|key| columns(&section, key));
+            let factor = factor();
+            Some(Layout::Difference(target?, difference?, factor?))
         }
         _ => {
             section.check_keys(&[&keys::POSE, &keys::TURN]);
-            let position = columns(&section, "position");
-            Some(Layout::Pose(position?, factor?, turn(&section)?))
+            let (position, factor, turn) = pose(&section)?;
+            Some(Layout::Pose(position, factor, turn))
         }
     }
+}
+
+/// Reads columns of the position and of the orientation of a tool, and the factor of the former.
+fn pose(section: &Section<'_>) -> Option<([Column; 3], f64, Turn)> {
+    let (position, factor) = (columns(section, "position"), unit(section, Dimension::LENGTH));
+    Some((position?, factor?, turn(section)?))
 }
 
 fn turn(section: &Section<'_>) -> Option<Turn> {
@@ -259,7 +283,8 @@ fn accept(root: &Section<'_>) -> Option<Acceptance> {
     let section = item.table("[accept]", &[&keys::ACCEPT])?;
     let figures = FIGURE_NAMES.into_iter().filter_map(|figure| Some((figure, section.get(figure)?)));
     let limits = figures.map(|(figure, item)| Some((figure, item.quantity(Dimension::LENGTH)?)));
-    Some(Acceptance { limits: limits.collect::<Option<_>>()? })
+    let is_target_fitted = section.get(TARGET).is_some_and(|item| item.choice(&JUDGED_TARGETS) == Some(true));
+    Some(Acceptance { limits: limits.collect::<Option<_>>()?, is_target_fitted })
 }
 
 /// Reads `[record]`: texts for a page that can be signed.

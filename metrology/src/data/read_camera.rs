@@ -144,9 +144,15 @@ fn corners(section: &Section<'_>) -> Option<Vec<[f64; 3]>> {
         }
         (None, Some(list)) => {
             let mut corners = Vec::new();
-            for item in list.array("corners, each two lengths on the board")? {
-                let [x, y] = item.quantities("two lengths on the board: x, y", Dimension::LENGTH)?;
-                corners.push([x, y, 0.0]);
+            let expected = "two lengths on a flat board: x, y, or three: x, y, z";
+            for item in list.array("corners, each two or three lengths on the board")? {
+                corners.push(match item.array(expected)?.len() {
+                    2 => {
+                        let [x, y] = item.quantities(expected, Dimension::LENGTH)?;
+                        [x, y, 0.0]
+                    }
+                    _ => item.quantities(expected, Dimension::LENGTH)?,
+                });
             }
             if let Some(pitch) = section.get("pitch") {
                 let message = "`pitch` belongs to `board`, and this board lists its `corners`";

@@ -6,11 +6,14 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use abbe::Manipulator;
+use abbe::analysis::sampling;
 use abbe::identify::{Approach, Configurations, Measurement, Observation};
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use super::column::{Channel, Column};
+use super::command_pose::{CommandPose, inverse};
 use super::configurations::number_configurations;
 use super::instrument::{Instruments, NOTHING_READ};
 use super::map::{Layout, Map};
@@ -123,24 +126,33 @@ impl Data {
             [&map.group, &map.direction, &map.time].map(|column| column.as_ref().and_then(|c| place(&c)));
         let (mut groups, mut directions) = (Vec::new(), Vec::new());
         let mut known = HashSet::new();
+        let nominal = map.command_pose.as_ref().map(CommandPose::machine);
+        let inverse = nominal.as_ref().map(inverse).transpose()?;
+        let mut last = nominal.as_ref().map_or(Vec::new(), |machine| sampling::home(machine.description()));
         // Previous row, for readings that refer to it.
         let from_before = map.instruments().is_some_and(Instruments::depend_on_previous_row);
         let mut before: Option<Observation> = None;
         for record in table.records {
             let record = record?;
             let measured = (columns == Wanted::Measured).then_some(&measured[..]);
-            let here = from_before.then(|| row(&record, &commanded, None, map).ok()).flatten();
-            let row = row(&record, &commanded, measured, map).and_then(|row| {
+            let joints = |numbers: &[f64]| match (&map.command_pose, &inverse) {
+                (Some(pose), Some(inverse)) => pose.joints_at(inverse, &last, numbers).map(Some),
+                _ => Ok(None),
+            };
+            let here = from_before.then(|| row(&record, &commanded, None, map, joints).ok()).flatten();
+            let row = row(&record, &commanded, measured, map, joints).and_then(|row| {
                 if moved_from_nowhere(&row, before.as_ref(), map) {
                     return Err("this relative reading has no row before it".to_owned());
                 }
-                if once && map.time.is_none() && row.count() > 2 && !known.insert(hash(&row)) {
+                let time = time.map(|place| record.time(place)).transpose()?;
+                if once && row.count() > 2 && !known.insert((hash(&row), time.map(f64::to_bits))) {
                     return Err("identical to an earlier row".to_owned());
                 }
-                Ok((row, time.map(|place| record.time(place)).transpose()?))
+                Ok((row, time))
             });
             match row {
                 Ok((observation, time)) => {
+                    last.iter_mut().zip(observation.q.iter()).for_each(|(last, now)| *last = *now);
                     let station = station.map_or(0, |place| data.station(&record.text(place)));
                     let from = before.take().map(|from| Box::new(Observation { station, ..from }));
                     let approach = Approach { time, from, ..Approach::default() };
@@ -302,12 +314,14 @@ fn row(
     commanded: &[usize],
     measured: Option<&[usize]>,
     map: &Map,
+    joints: impl Fn(&[f64]) -> Result<Option<Vec<f64>>, String>,
 ) -> Result<Observation, String> {
     if let Some(reason) = record.too_long() {
         return Err(reason);
     }
     let commanded = record.numbers(commanded)?;
-    let mut values = commanded.iter().copied();
+    let (pose, rest) = commanded.split_at(map.command_pose.iter().flat_map(CommandPose::columns).count());
+    let mut values = rest.iter().copied();
     let mut channel = |channel: &Channel| match channel {
         Channel::Column(_, scale) => scale.value(values.next().unwrap_or_default()),
         Channel::Fixed(value) => *value,
@@ -315,6 +329,7 @@ fn row(
         Channel::FromRows(_) => 0.0,
     };
     let q: Vec<f64> = map.joints.iter().map(&mut channel).collect();
+    let q = joints(pose)?.unwrap_or(q);
     let u: Vec<f64> = map.inputs.iter().map(&mut channel).collect();
     let Some(places) = measured else {
         return Ok(Observation::new(record.line, q, u, map.unmeasured(values.next())));

@@ -63,17 +63,6 @@ impl Columns {
                 separate cells by commas, semicolons or tabs";
             return fail(message, help);
         }
-        let is_whole = |row: &&Vec<f64>| !numeric.iter().any(|place| row[*place].is_nan());
-        let whole: Vec<&Vec<f64>> = rows.iter().filter(is_whole).collect();
-        let slip = numeric.iter().filter_map(|place| slips[*place].as_ref()).min_by_key(|(line, _)| line);
-        if let Some((line, reason)) = slip {
-            let others = match rows.len() - whole.len() {
-                1 => String::new(),
-                count => format!("; {count} rows have this problem"),
-            };
-            let place = if source.file().is_some() { "line" } else { "row" };
-            notes.warn(&format!("an incomplete row is ignored: {place} {line}: {reason}{others}"));
-        }
         let names: Vec<&str> = spec.variables.iter().map(|variable| &*variable.name).collect();
         let joints = named(&heading, &numeric, &names)
             .or_else(|| numbered(&heading, &numeric, count))
@@ -84,6 +73,18 @@ impl Columns {
         let ignored: Vec<&str> = others.map(|place| &*heading[*place]).collect();
         if !ignored.is_empty() {
             notes.note(&format!("columns beside joints and pose are ignored: {}", listed(&ignored)));
+        }
+        let used = || joints.iter().chain(&pose);
+        let is_whole = |row: &&Vec<f64>| !used().any(|place| row[*place].is_nan());
+        let whole: Vec<&Vec<f64>> = rows.iter().filter(is_whole).collect();
+        let slip = used().filter_map(|place| slips[*place].as_ref()).min_by_key(|(line, _)| line);
+        if let Some((line, reason)) = slip {
+            let others = match rows.len() - whole.len() {
+                1 => String::new(),
+                count => format!("; {count} rows have this problem"),
+            };
+            let place = if source.file().is_some() { "line" } else { "row" };
+            notes.warn(&format!("an incomplete row is ignored: {place} {line}: {reason}{others}"));
         }
         let step = whole.len().div_ceil(most).max(1);
         if step > 1 {

@@ -29,12 +29,12 @@ use super::known_distances::known_distance_fits;
 use super::leg_terms::leg_terms;
 use super::options::{LOSSES, ONLY, Settings, family_name};
 use super::parameters::{correlated, magnitudes, parameters, redundant};
-use super::plausibility::{check_lengths, tool_note};
+use super::plausibility::{check_lengths, sum_note, tool_note};
 use super::point_residuals::points;
 use super::profiles::{FoundProfiles, find_profiles};
 use super::read_back::{ReadBack, not_read_back, read_back};
-use super::report::{Certainty, CrossValidation, Indices, LeftOut, Parameter, Report, TermGain};
-use super::row_notes::row_notes;
+use super::report::{Certainty, CrossValidation, LeftOut, Parameter, Report, TermGain};
+use super::row_notes::RowNotes;
 use super::scale::scale_note;
 use super::setup::Setup;
 use super::solve::Solved;
@@ -297,7 +297,6 @@ fn report(
     let compared_fit = compare(solved, constant, &setup.delivered, data, |i| fit.is_kept(i))?;
     refuse_worse(&compared_fit, data, setup)?;
     let [instruments, coordinates] = instrument_and_coordinate_fits(model, map, data, fit).map_err(fail)?;
-    let o = identifiable.observability;
     let test = test.map(|test| comparable(test, data, model)).transpose()?;
     let test = test.as_deref();
     let assess = |test: &Data| compare(solved, constant, &setup.delivered, test, |_| true);
@@ -336,19 +335,21 @@ fn report(
             .to_owned()
     });
     let notes = solved.notes.iter().chain(&chosen.notes[..]).cloned();
-    let of_rows = row_notes(setup, model, &fit.x, rows).map_err(fail)?;
-    let is_doubted = !of_rows.is_empty();
+    let kept: Vec<_> = fit.kept(rows).collect();
+    let RowNotes { notes: of_rows, has_moved } =
+        RowNotes::new(setup, model, &fit.x, (data, &kept)).map_err(fail)?;
     let notes = notes
         .chain(of_rows)
         .chain(scale_note(&setup.real, rows, &setup.moved(rows)).map_err(fail)?)
         .chain(unequal_note(&coordinates))
         .chain(tool_note(setup, model, fit))
+        .chain(sum_note(setup, model, fit))
         .chain(no_drift)
         .chain(read_back_note)
         .chain(test_sizes.and_then(|test| test.note_on_terms(spec.length)));
     let gains = chosen.groups.iter();
     let gains = gains.map(|(terms, selection)| gain(spec, &found, terms, selection, length));
-    let drift = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x).map_err(fail)?;
+    let drift = drift(model, &kept, &fit.x).map_err(fail)?;
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -357,8 +358,7 @@ fn report(
         unknowns: model.unknowns.len(),
         machine: Counts::new(model, identifiable),
         gap: Some(identifiable.gap).filter(|gap| gap.is_finite()),
-        condition: o.condition,
-        observability: Indices { o1: o.o1, o2: o.o2, o3: o.o3, o4: o.o4, o5: o.o5 },
+        condition: identifiable.condition,
         unexplained: (model.unknowns.len() - identifiable.rank)
             .saturating_sub(groups.len() + identifiable.weak.len()),
         weakly_determined: WeaklyDetermined::all(model, identifiable, spec.length),
@@ -387,7 +387,7 @@ fn report(
         tried: chosen.tried,
         families: chosen.families.clone(),
         profiles: solved.profiles.clone(),
-        drift: drift.map(ResidualDrift::new).filter(|_| !is_doubted),
+        drift: drift.map(ResidualDrift::new).filter(|_| !has_moved),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected: fit.rejected(rows).map(|row| row.line).collect(),
         notes: notes.collect(),

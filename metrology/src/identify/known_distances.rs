@@ -1,6 +1,6 @@
 //! Known distances between the points of instruments: their residuals in a fit.
 
-use abbe::identify::{Fit, Model};
+use abbe::identify::{Fit, KnownDistance, Model};
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
@@ -37,19 +37,33 @@ pub(super) fn known_distance_fits(model: &Model, fit: &Fit) -> Vec<KnownDistance
         .collect()
 }
 
-/// Returns an error if the rows do not read one of the instruments between which the map states a
-/// distance: its point could then be anywhere.
-pub(super) fn check_known_distances(model: &Model, map: &Map, data: &Data) -> Result<(), Diagnostics> {
-    let Some(all) = map.instruments() else { return Ok(()) };
+/// Returns the known distances whose ends the rows read: others say nothing of the machine.
+///
+/// Returns an error if an end that no row reads has an unknown position: it could then be anywhere.
+pub(super) fn measured_distances(
+    model: &Model,
+    map: &Map,
+    data: &Data,
+) -> Result<Vec<KnownDistance>, Diagnostics> {
+    let Some(all) = map.instruments() else { return Ok(Vec::new()) };
     let read = read(model, &data.observations);
-    let fixtures = model.known_distances.iter().flat_map(|known| known.fixtures);
-    let instruments = fixtures.filter_map(|fixture| all.instrument_at(fixture));
-    let mut unread = instruments.filter(|instrument| !read[all.list[*instrument].observables.start]);
-    let Some(instrument) = unread.next() else { return Ok(()) };
-    let message = format!(
-        "no row reads the instrument `{}`, to which the map states a distance",
-        all.list[instrument].name.escape_debug()
-    );
-    let help = "measure there as well, or remove its [[distance]]";
-    Err(mistake::with_help(&data.file, message, help))
+    let unread = |known: &KnownDistance| {
+        let mut instruments = known.fixtures.into_iter().filter_map(|fixture| all.instrument_at(fixture));
+        instruments.find(|instrument| !read[all.list[*instrument].observables.start])
+    };
+    let mut kept = Vec::new();
+    for known in &model.known_distances {
+        match unread(known) {
+            None => kept.push(*known),
+            Some(instrument) if all.at_unknown_positions().any(|unknown| unknown == instrument) => {
+                let name = all.list[instrument].name.escape_debug();
+                let message =
+                    format!("no row reads the instrument `{name}`, to which the map states a distance");
+                let help = "measure there as well, or remove its [[distance]]";
+                return Err(mistake::with_help(&data.file, message, help));
+            }
+            Some(_) => {}
+        }
+    }
+    Ok(kept)
 }

@@ -106,8 +106,8 @@ pub use outliers::shown_lines;
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
-    Certainty, Compared, CrossValidation, Indices, Kind, LeftOut, Magnitude, MagnitudeSum, Pair, Parameter,
-    Redundant, Report, TermGain, Written,
+    Certainty, Compared, CrossValidation, Kind, LeftOut, Magnitude, MagnitudeSum, Pair, Parameter, Redundant,
+    Report, TermGain, Written,
 };
 pub use spec_writer::IdentifiedSpec;
 pub use terms::{Angle, Basis, ErrorSite, HeldJoint, Term, Wave};
@@ -123,7 +123,7 @@ pub(crate) use line_of_sight::{nothing_readable, readable_configurations};
 pub(crate) use magnitude::own_magnitudes;
 pub(crate) use parameters::redundant;
 pub(crate) use plausibility::{check_plausibility, too_large};
-pub(crate) use row_notes::row_notes;
+pub(crate) use row_notes::RowNotes;
 pub(crate) use scale::scale_note;
 pub(crate) use setup::Setup;
 pub(crate) use unexplained::unknown_sources;

@@ -14,16 +14,26 @@ use abbe_study::{Notes, mistake, number};
 /// Residual, as a share of the arm length, above which errors are too large for a machine.
 const LARGE: f64 = 1e-2;
 
-/// Returns a warning if a root mean square error is too large for a machine.
-pub(crate) fn too_large(rms: f64, setup: &Setup) -> Option<String> {
-    let (length, share) = (number::length(rms, setup.description.length), number::percent(rms, setup.arm));
-    (rms > LARGE * setup.arm).then(|| {
-        format!(
-            "implausible errors of {length} (root mean square), {share} of the arm: no placement of base and \
-             tool and no other interpretation (units, signs, column order) fits. Check that these are \
-             measurements of this machine; `abbe doctor` tries more conventions."
-        )
-    })
+/// Returns a warning if a root mean square error is too large for a machine. `fitted` is the error
+/// with base and tool fitted, if that fit succeeded.
+pub(crate) fn too_large(rms: f64, fitted: Option<f64>, setup: &Setup) -> Option<String> {
+    let large = LARGE * setup.arm;
+    let length = |value| number::length(value, setup.description.length);
+    let reason = match fitted.filter(|left| *left <= large) {
+        Some(left) => format!(
+            "{} remain with base and tool fitted. Check the placement of the instrument (`base = \"unknown\"` in \
+             the map fits it) and of the target.",
+            length(left)
+        ),
+        None => {
+            "no placement of base and tool and no other interpretation (units, signs, column order) fits. \
+                 Check that these are measurements of this machine; `abbe doctor` tries more conventions."
+                .to_owned()
+        }
+    };
+    let (size, share) = (length(rms), number::percent(rms, setup.arm));
+    (rms > large)
+        .then(|| format!("implausible errors of {size} (root mean square), {share} of the arm: {reason}"))
 }
 
 /// Warns if errors are too large for a machine even with base and tool fitted.
@@ -59,7 +69,7 @@ pub(crate) fn check_plausibility(
         Err(_) => return Ok(()),
     };
     let rms = rms.map_or_else(|| Ok(setup.delivered.figures(&data.observations, &[])?.rms), Ok)?;
-    if let Some(statement) = too_large(rms, setup) {
+    if let Some(statement) = too_large(rms, None, setup) {
         notes.warn(&statement);
     }
     Ok(())
@@ -157,4 +167,28 @@ pub(super) fn tool_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<Strin
             length(deviation)
         )
     })
+}
+
+/// Returns a note on coordinates of the measured frame that the rows show only together with those
+/// of the machine, as its height on a machine with vertical axes.
+pub(super) fn sum_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<String> {
+    let is_shift = |k: usize| match model.unknowns[k] {
+        Unknown::Base(_, component) | Unknown::Tool(_, component) => !component.is_rotation(),
+        _ => false,
+    };
+    let is_of_base = |k: usize| matches!(model.unknowns[k], Unknown::Base(..));
+    let held = fit.identifiable.redundant.iter().find_map(|(k, acts_as)| {
+        let Unknown::Tool(_, component) = model.unknowns[*k] else { return None };
+        let is_sum = is_shift(*k) && acts_as.iter().all(|(other, _)| is_shift(*other));
+        let of_base = acts_as.iter().filter(|(other, _)| is_sum && is_of_base(*other));
+        let (base, _) = *of_base.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        Some((component, fit.identifiable.kept.iter().position(|kept| *kept == base)?))
+    });
+    let (component, base) = held?;
+    let axis = component.name().trim_start_matches("e_");
+    let deviation = number::length(fit.covariance[(base, base)].sqrt(), setup.description.length);
+    Some(format!(
+        "note: {axis} of the measured frame on the tool is held: these joints show only its sum with the place of the \
+         machine along the same direction, known to {deviation} (1 σ)"
+    ))
 }

@@ -46,8 +46,6 @@ pub struct Report {
     /// Condition number of the kept columns of the design matrix, each scaled to unit length.
     #[serde(serialize_with = "abbe_study::finite::or_null")]
     pub condition: f64,
-    /// Observability indices.
-    pub observability: Indices,
     /// Combinations of unknowns that cannot be distinguished, with the reason.
     pub groups: Vec<Indistinguishable>,
     /// Number of undetermined combinations that `groups` and `weakly_determined` do not explain;
@@ -111,7 +109,7 @@ pub struct Report {
     /// significantly.
     pub profiles: Option<JointProfiles>,
     /// Drift of the residuals with the row order; none if there are too few rows for the test, or
-    /// where notes doubt some.
+    /// where a place moved between two rows.
     pub drift: Option<ResidualDrift>,
     /// Rows that cannot be used.
     pub unusable: Vec<LeftOut>,
@@ -198,22 +196,6 @@ impl Certainty {
     pub fn factor_of_all(&self, count: usize) -> f64 {
         student_factor(1.0 - 0.05 / count.max(1) as f64, self.coverage_freedom)
     }
-}
-
-/// Observability indices of the singular values `σ_1 ≥ … ≥ σ_r` of the design matrix with `m` rows
-/// and columns of unit length, without a unit; see [`abbe::identify::Observability`].
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Indices {
-    /// `O1 = (σ_1 ⋯ σ_r)^(1/r) / √m`, without a unit.
-    pub o1: f64,
-    /// `O2 = σ_r / σ_1`, without a unit.
-    pub o2: f64,
-    /// `O3 = σ_r`, without a unit.
-    pub o3: f64,
-    /// `O4 = σ_r² / σ_1`, without a unit.
-    pub o4: f64,
-    /// `O5 = 1 / Σ 1/σ_i`, without a unit.
-    pub o5: f64,
 }
 
 /// Object that an unknown belongs to.

@@ -2,13 +2,14 @@
 //! stood still, orientations that nobody measured.
 
 use abbe::analysis::sampling::norm;
-use abbe::identify::{Failure, Measurement, Model, Observation, Unknown, moved_places};
+use abbe::identify::{Failure, Measurement, Model, MovedPlace, Observation, Unknown, moved_places};
 use abbe::{Component, Pose, rotation_vector};
 use abbe_spec::option::STATION_NEW;
 
 use super::fitted::{fitted_mountings, fitted_targets};
 use super::outliers::shown_lines;
 use super::setup::Setup;
+use crate::data::Data;
 use abbe_study::number::{digits, length, percent};
 
 /// Probability by chance up to which a place counts as moved.
@@ -16,6 +17,12 @@ const CHANCE: f64 = 1e-6;
 
 /// Share of the squares of the residuals from which a place counts as moved.
 const SHARE: f64 = 0.3;
+
+/// Share of a motion that the nearest rows must show with 95 % confidence: a drift shows a quarter.
+const SUDDEN: f64 = 0.5;
+
+/// Largest number of rows, times the number of places, among which a motion is sought.
+const TRIED: usize = 4000;
 
 /// Share of its predicted motion up to which a measured one counts as none.
 const STILL: f64 = 0.01;
@@ -27,18 +34,33 @@ const FAR: f64 = 0.03;
 /// nominal machine.
 const COPIED: f64 = 1e-5;
 
-/// Returns notes on rows whose residuals at `x` show that they are not what the map says.
-pub(crate) fn row_notes(
-    setup: &Setup,
-    model: &Model,
-    x: &[f64],
-    rows: &[Observation],
-) -> Result<Vec<String>, Failure> {
-    let still = still(setup, model, x, rows)?;
-    // Rows that repeat others move nothing.
-    let moved = if still.is_none() { moved(setup, model, x, rows)? } else { None };
-    let copied = copied_orientations(setup, rows)?;
-    Ok(still.into_iter().chain(moved).chain(copied).chain(far_from_stated(setup, model, x)).collect())
+/// Notes on rows that do not say what the map says of them.
+#[derive(Default)]
+pub(crate) struct RowNotes {
+    /// Sentences.
+    pub(crate) notes: Vec<String>,
+    /// A place moved between two rows: that the residuals follow time is no drift.
+    pub(crate) has_moved: bool,
+}
+
+impl RowNotes {
+    /// Examines rows of some data by their residuals at `x`.
+    pub(crate) fn new(
+        setup: &Setup,
+        model: &Model,
+        x: &[f64],
+        (data, rows): (&Data, &[&Observation]),
+    ) -> Result<Self, Failure> {
+        let still = still(setup, model, x, rows)?;
+        // Rows that repeat others move nothing.
+        let (moved, has_moved) = match still.is_none() {
+            true => moved(setup, model, x, (data, rows))?.unzip(),
+            false => (None, None),
+        };
+        let copied = copied_orientations(setup, rows)?;
+        let notes = still.into_iter().chain(moved).chain(copied).chain(far_from_stated(setup, model, x));
+        Ok(Self { notes: notes.collect(), has_moved: has_moved == Some(true) })
+    }
 }
 
 /// Returns a note on a place on the tool that was found far from where the map states it.
@@ -47,42 +69,62 @@ fn far_from_stated(setup: &Setup, model: &Model, x: &[f64]) -> Option<String> {
         true => fitted_mountings(model, x).iter().map(Pose::position).collect(),
         false => model.mounted(&fitted_targets(model, x)),
     };
-    let away = |(a, b): ([f64; 3], [f64; 3])| norm([a[0] - b[0], a[1] - b[1], a[2] - b[2]]);
-    let most = found.into_iter().zip(setup.delivered_points()).map(away).fold(0.0, f64::max);
+    let away = found.into_iter().zip(setup.delivered_points()).map(|(a, b)| apart(a, b)).enumerate();
+    let (place, most) = away.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    let unknown = if setup.pose { Unknown::Tool(place, Component::X) } else { Unknown::Target(place, 0) };
+    let name = name(model, unknown);
     (most > FAR * setup.arm && !setup.is_tool_open()).then(|| {
         format!(
-            "note: {} comes out {} from where the map states it on the tool: does the map have another tool, or \
-             another unit?",
-            if setup.pose { "the measured frame" } else { "a target" },
+            "note: {name} comes out {} from where map and spec have it on the tool: is it that of another tool, or \
+             in another unit?",
             length(most, setup.description.length)
         )
     })
 }
 
-/// Returns a note on rows in which the joints differ from those before, but nothing moved.
-fn still(setup: &Setup, model: &Model, x: &[f64], rows: &[Observation]) -> Result<Option<String>, Failure> {
+/// Names the place that an unknown belongs to.
+fn name(model: &Model, unknown: Unknown) -> String {
+    match unknown {
+        Unknown::Base(i, _) if model.stations.len() > 1 => {
+            format!("F_0 at station {}", model.stations[i].name)
+        }
+        Unknown::Base(..) => "F_0".to_owned(),
+        Unknown::Target(i, _) if model.targets.len() > 1 => format!("target {}", i + 1),
+        Unknown::Target(..) => "the target".to_owned(),
+        _ => "the measured frame".to_owned(),
+    }
+}
+
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    norm([a[0] - b[0], a[1] - b[1], a[2] - b[2]])
+}
+
+/// Returns a note on rows in which the joints differ from those before, but nothing moved: neither
+/// the target nor, of a pose, its position, that the joints should have moved.
+fn still(setup: &Setup, model: &Model, x: &[f64], rows: &[&Observation]) -> Result<Option<String>, Failure> {
     let mut at = model.at(x);
-    let mut last: Option<(Pose, Vec<[f64; 3]>)> = None;
+    let mut last: Vec<[[f64; 3]; 2]> = Vec::new();
     let mut lines = Vec::new();
-    let apart = |a: [f64; 3], b: [f64; 3]| norm([a[0] - b[0], a[1] - b[1], a[2] - b[2]]);
+    let least = (10.0 * setup.real.uncertainty.length).max(STILL * setup.arm);
     for row in rows {
-        let measured = match &row.measured {
+        let measured: Vec<[f64; 3]> = match &row.measured {
             Measurement::Points(points) => points.iter().flatten().copied().collect(),
             Measurement::Pose(pose) => vec![pose.position()],
             Measurement::Readings(_) => return Ok(None),
         };
-        let predicted = at.pose(row)?;
-        if let Some((pose, points)) = &last
-            && points.len() == measured.len()
-        {
-            let motion = apart(pose.position(), predicted.position());
-            let most = points.iter().zip(&measured).map(|(a, b)| apart(*a, *b)).fold(0.0, f64::max);
-            let noise = 10.0 * setup.real.uncertainty.length;
-            if motion > noise.max(STILL * setup.arm) && most < STILL * motion {
-                lines.push(row.line);
-            }
+        // Deviations are predicted minus measured.
+        let deviations = at.deviations(row)?.into_iter();
+        let both =
+            measured.into_iter().zip(deviations).map(|(at, by)| [at, [0, 1, 2].map(|i| at[i] + by[i])]);
+        let here: Vec<[[f64; 3]; 2]> = both.collect();
+        let stands = |(before, now): (&[[f64; 3]; 2], &[[f64; 3]; 2])| {
+            let [measured, predicted] = [0, 1].map(|i| apart(before[i], now[i]));
+            predicted > least && measured < STILL * predicted
+        };
+        if here.len() == last.len() && !here.is_empty() && last.iter().zip(&here).all(stands) {
+            lines.push(row.line);
         }
-        last = Some((predicted, measured));
+        last = here;
     }
     Ok((!lines.is_empty()).then(|| {
         format!(
@@ -96,7 +138,7 @@ fn still(setup: &Setup, model: &Model, x: &[f64], rows: &[Observation]) -> Resul
 /// Returns a note on orientations that agree with the nominal machine, where positions do not.
 ///
 /// The angles between the orientations of consecutive rows depend neither on base nor on tool.
-fn copied_orientations(setup: &Setup, rows: &[Observation]) -> Result<Option<String>, Failure> {
+fn copied_orientations(setup: &Setup, rows: &[&Observation]) -> Result<Option<String>, Failure> {
     let mut nominal = setup.ideal.at(&[]);
     let mut last: Option<[Pose; 2]> = None;
     let (mut turned, mut moved, mut count) = (0.0, 0.0, 0.0);
@@ -124,17 +166,25 @@ fn copied_orientations(setup: &Setup, rows: &[Observation]) -> Result<Option<Str
     }))
 }
 
-/// Returns a note on the station or the place on the tool that explains most of the residuals, if
-/// it differs in all rows or from one on.
-fn moved(setup: &Setup, model: &Model, x: &[f64], rows: &[Observation]) -> Result<Option<String>, Failure> {
+/// Returns a note on the station or the place on the tool whose motion explains most of the
+/// residuals, and whether it moved between two rows instead of being elsewhere in all.
+fn moved(
+    setup: &Setup,
+    model: &Model,
+    x: &[f64],
+    (data, rows): (&Data, &[&Observation]),
+) -> Result<Option<(String, bool)>, Failure> {
     let [stations, targets] = [&model.stations.len(), &model.targets.len()].map(|count| 0..*count);
     let tools = 0..if setup.pose { model.mountings.len() } else { 0 };
     let of_stations = stations.clone().map(|i| Component::ALL.map(|c| Unknown::Base(i, c)).to_vec());
     let of_targets = targets.map(|i| [0, 1, 2].map(|axis| Unknown::Target(i, axis)).to_vec());
     let of_tools = tools.map(|i| Component::ALL.map(|c| Unknown::Tool(i, c)).to_vec());
     let places: Vec<Vec<Unknown>> = of_stations.chain(of_targets).chain(of_tools).collect();
-    let mut found = moved_places(model, rows, x, &places)?.into_iter();
-    let Some(found) = found.find(|found| found.p < CHANCE && found.share > SHARE) else { return Ok(None) };
+    let step = (rows.len() * places.len()).div_ceil(TRIED).max(1);
+    let rows: Vec<&Observation> = rows.iter().step_by(step).copied().collect();
+    let is_one = |one: &MovedPlace| one.p < CHANCE && one.share > SHARE && one.sudden > SUDDEN;
+    let found = moved_places(model, &rows, x, &places)?;
+    let Some(found) = found.into_iter().flatten().find(is_one) else { return Ok(None) };
     let part = |first: usize| norm([0, 1, 2].map(|i| found.change[first + i]));
     let mut by = length(part(0), setup.description.length);
     if found.change.len() > 3 {
@@ -142,33 +192,37 @@ fn moved(setup: &Setup, model: &Model, x: &[f64], rows: &[Observation]) -> Resul
     }
     let explained = percent(found.share, 1.0);
     let (is_station, is_moved) = (stations.contains(&found.place), found.row > 0);
-    let place = match places[found.place][0] {
-        Unknown::Base(i, _) if model.stations.len() > 1 => {
-            format!("F_0 at station {}", model.stations[i].name)
-        }
-        Unknown::Base(..) => "F_0".to_owned(),
-        Unknown::Target(i, _) if model.targets.len() > 1 => format!("target {}", i + 1),
-        Unknown::Target(..) => "the target".to_owned(),
-        _ => "the measured frame".to_owned(),
+    let place = name(model, places[found.place][0]);
+    let on = if is_station { "" } else { " on the tool" };
+    if !is_moved {
+        let fitted = match is_station {
+            true => format!("`base = \"unknown\"` in the map, or `{STATION_NEW}`,"),
+            false => "`placement = \"unknown\"` in the map".to_owned(),
+        };
+        let note = format!(
+            "note: {place} elsewhere{on} by {by} would explain {explained} of the squares of the residuals: \
+             {fitted} fits it"
+        );
+        return Ok(Some((note, false)));
+    }
+    let (reason, more) = match is_station {
+        true => ("was the instrument moved, or the machine on its foundation?", ""),
+        false => ("did it slip, or was it mounted anew?", " and `placement = \"per station\"`"),
     };
-    let line = rows[found.row].line;
-    let (on, reason, more) = match is_station {
-        true => ("", "the instrument was moved, or the machine on its foundation", ""),
-        false => (" on the tool", "it slipped, or was mounted anew", " and `placement = \"per station\"`"),
-    };
-    let fitted = match is_station {
-        true => format!("`base = \"unknown\"` in the map, or `{STATION_NEW}`,"),
-        false => "`placement = \"unknown\"` in the map".to_owned(),
-    };
-    Ok(Some(match is_moved {
+    let way_out = match model.observables.is_empty() {
         true => format!(
-            "note: from line {line} on, {place} is {by} elsewhere{on} than before, which explains {explained} of the \
-             squares of the residuals: {reason}. Name the rows before and those from there on in a column of \
-             their own: `station = \"that column\"`{more} in `[data]` of the map"
+            "Name the rows before and those from there on in a column of their own: `station = \"that column\"`{more} \
+             in `[data]` of the map"
         ),
-        false => format!(
-            "note: {place} is {by} elsewhere{on} than the map states, which explains {explained} of the squares of \
-             the residuals: {fitted} fits it"
-        ),
-    }))
+        false => "Give the rows from there on instruments of their own, by `setup` in `[data]` of the map"
+            .to_owned(),
+    };
+    let [before, first] = [found.row - 1, found.row].map(|row| data.place(rows[row].line));
+    let from =
+        if step == 1 { format!("from {first} on") } else { format!("from between {before} and {first} on") };
+    let note = format!(
+        "note: {from}, {place} is {by} elsewhere{on} than before, which explains {explained} of the squares of the \
+         residuals: {reason} {way_out}"
+    );
+    Ok(Some((note, true)))
 }

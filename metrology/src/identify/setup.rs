@@ -7,7 +7,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::{IDENTIFY_OUT, STATION_NEW};
 
 use super::board_check::check_board;
-use super::known_distances::check_known_distances;
+use super::known_distances::measured_distances;
 use super::registered::{OpenPlaces, register_in_turn, registered};
 use super::scale::reference_length;
 use crate::data::{Base, Data, Map};
@@ -62,7 +62,8 @@ impl<'a> Setup<'a> {
         }
         setup.set_stations(&stations);
         setup.place_tool(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
-        check_known_distances(&setup.real, map, data)?;
+        let known = measured_distances(&setup.real, map, data)?;
+        setup.models().into_iter().for_each(|model| model.known_distances.clone_from(&known));
         setup.place_fixtures(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         if let Some(row) = data.observations.first() {
             let length = reference_length(&setup.ideal, &row.q, &setup.moved(&data.observations));

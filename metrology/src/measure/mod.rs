@@ -16,10 +16,12 @@ use abbe::identify::{self, Figures, Observation, drift};
 use abbe::{LengthUnit, Pose};
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::option;
 use serde::Serialize;
 
+use crate::acceptance::{FITTED, TARGET};
 use crate::data::{Data, Instruments, Map, Summary, Table};
-use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, row_notes, too_large};
+use crate::identify::{ResidualDrift, RowNotes, Setup, Sizes, check_interpretation, too_large};
 use crate::running_sums::RunningSums;
 use crate::{Acceptance, AcceptanceVerdict, Judged};
 use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
@@ -80,8 +82,8 @@ pub struct Report {
     /// Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single
     /// configuration.
     pub standard_error: Option<f64>,
-    /// Drift test of the errors minus the repeatable sources; none for too few rows, or where notes
-    /// doubt some.
+    /// Drift test of the errors minus the repeatable sources; none for too few rows, or where a
+    /// place moved between two rows.
     pub drift: Option<ResidualDrift>,
     /// Rows that do not say what the map says of them.
     pub notes: Vec<String>,
@@ -161,6 +163,16 @@ fn visited_again(rows: &[Observation]) -> Vec<bool> {
     again
 }
 
+/// Returns the mistake of an acceptance whose target is fitted to the rows that it judges.
+fn fitted_target(map: &Map) -> Diagnostics {
+    let message = "the place of a target on the tool is fitted to these rows: errors that it absorbs would not be judged";
+    let help = format!(
+        "state its position in the map; or judge what is left: `{TARGET} = \"{FITTED}\"` in `[accept]`, or `{}`",
+        option("accept", format!("\"max 0.3 mm, {TARGET} {FITTED}\""))
+    );
+    mistake::with_help(map.path(), message, help)
+}
+
 impl Measure {
     /// Returns the options that the figures depend on.
     fn options(&self) -> Vec<(&'static str, String)> {
@@ -197,6 +209,10 @@ impl Measure {
         let mut setup = Setup::new(&interpreter, map, &data, 0)?;
         let fitted = check_interpretation(&setup, map, &data)?;
         let placed = setup.find_places(map, &data)?;
+        let is_tool_fitted = placed.is_some() && setup.is_tool_open();
+        if is_tool_fitted && !accept.limits.is_empty() && !accept.is_target_fitted {
+            return Err(fitted_target(map));
+        }
         let mut evaluated = match map.instruments() {
             Some(all) => Evaluated::of_readings(&setup, all, data)?,
             None => Evaluated::of_points(&setup, data, keep, notes)?,
@@ -213,8 +229,7 @@ impl Measure {
             notes,
         );
         let Figures { rms, configurations, standard_error, .. } = evaluated.norms;
-        // Where base and tool explain them, a note on the rows says so.
-        if let Some(warning) = too_large(fitted.unwrap_or(rms), &setup).and(too_large(rms, &setup)) {
+        if let Some(warning) = too_large(rms, fitted, &setup) {
             notes.warn(&warning);
         }
         let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, repeatable, .. } =
@@ -237,7 +252,9 @@ impl Measure {
             (evaluated.explained.inside, evaluated.explained.likely) = (None, None);
         }
         let drift = drift(&setup.real, rows, &[]).map_err(fail)?;
-        let of_rows = row_notes(&setup, &setup.real, &[], rows).map_err(fail)?;
+        let RowNotes { notes: of_rows, has_moved } =
+            RowNotes::new(&setup, &setup.real, &[], (&evaluated.data, &rows.iter().collect::<Vec<_>>()))
+                .map_err(fail)?;
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
@@ -254,13 +271,13 @@ impl Measure {
             repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets_of(0).len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),
-            drift: drift.map(ResidualDrift::new).filter(|_| of_rows.is_empty()),
+            drift: drift.map(ResidualDrift::new).filter(|_| !has_moved),
             notes: of_rows,
             unusable: evaluated.data.unusable.len(),
             record: map.record.with_options(self.options()),
             file: evaluated.data.summary(),
             base_fitted: placed.is_some() && (setup.is_station_open() || map.instruments().is_some()),
-            tool_fitted: placed.is_some() && setup.is_tool_open(),
+            tool_fitted: is_tool_fitted,
             about_barycentres: if keep { iso9283::about_barycentres(&evaluated.visits) } else { Vec::new() },
             stations: setup.ideal.stations.iter().map(|station| station.pose).collect(),
             row_errors: evaluated.rows,

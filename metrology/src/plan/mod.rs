@@ -103,6 +103,7 @@ impl Plan {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, .. } = self;
         map.require_uncertainty("a plan")?;
+        map.require_joints("a plan")?;
         // Magnitudes that the spec leaves open are unknowns, as in an identification.
         let own = own_magnitudes(&machine.spec);
         let interpreter = Interpreter::new(extended(&machine.spec, &[]));
@@ -170,7 +171,7 @@ impl Plan {
             unknowns: model.unknowns.len(),
             machine: Counts::new(&model, &observed),
             weakly_determined: WeaklyDetermined::all(&model, &observed, machine.spec.length),
-            condition: observed.observability.condition,
+            condition: observed.condition,
             log_det: design.log_det,
             exchanges: design.exchanges,
             model_error: self.model_error,
@@ -209,7 +210,17 @@ impl Plan {
                 let u = configuration.u.clone();
                 Observation { u: u.into(), ..self.map.planned(line, configuration) }
             });
-            Ok::<_, Diagnostics>((self.readable(setup, rows.collect())?, counts))
+            let all: Vec<Observation> = rows.collect();
+            let count = all.len();
+            let readable = self.readable(setup, all)?;
+            if readable.len() < count {
+                let left = count - readable.len();
+                notes.note(&format!(
+                    "{}: {left} of {count} rows cannot be measured and are left out",
+                    sets.title
+                ));
+            }
+            Ok::<_, Diagnostics>((readable, counts))
         };
         match &self.choice {
             Choice::Sets(sets) => {

@@ -112,6 +112,7 @@ impl Simulate {
         mut take: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<usize, E> {
         let Self { machine, map, .. } = self;
+        map.require_joints("a simulation")?;
         if self.noise.is_none() {
             map.require_uncertainty("a simulation without stated noise")?;
         }

@@ -1,5 +1,6 @@
 //! A camera on the tool and one in the room: hand-eye, board and joint zeros from pixels.
 
+use abbe::identify::Measurement;
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::{Identify, Prior, Report, Settings};
@@ -165,6 +166,43 @@ fn a_camera_identifies_the_machine_on_tool_and_in_room() {
         assert!((left - mean).abs() < 1e-3 * mean, "{case}: {left} {mean}");
         assert_eq!((measure.instruments[0].unit.as_str(), measure.instruments[0].count), ("px", 20 * 54));
     }
+}
+
+/// Tags on three faces of a cube identify the machine, whichever of their corners a view shows:
+/// all, two tags, or one; and the written map has them.
+#[test]
+fn tags_in_three_dimensions_identify_the_machine() {
+    let face = |at: &dyn Fn([f64; 2]) -> [f64; 3]| {
+        [[10.0, 10.0], [70.0, 10.0], [70.0, 70.0], [10.0, 70.0]].map(at)
+    };
+    let faces = [face(&|[x, y]| [x, y, 0.0]), face(&|[x, y]| [x, 0.0, y]), face(&|[x, y]| [0.0, x, y])];
+    let corners = format!(
+        "corners = {:?}\n",
+        faces.as_flattened().iter().map(|at| at.map(|x| format!("{x} mm"))).collect::<Vec<_>>()
+    );
+    let of_tags = |places: &str| {
+        let text = map_text("tool", "0.2", "known", places);
+        parsed(&text.replace("board = [9, 6]\npitch = \"15 mm\"\n", &corners))
+    };
+    let (truth, map) = (of_tags(places("tool")), of_tags(""));
+    let mut data = simulated(&truth, 60, 1);
+    for (i, row) in data.observations.iter_mut().enumerate() {
+        let Measurement::Readings(readings) = &mut row.measured else { unreachable!() };
+        let hidden = [0..0, 8..16, 0..16][i % 3].clone();
+        readings[hidden].fill(None);
+    }
+    let report = identified(&map, data, Some(simulated(&truth, 20, 2)));
+    assert!((0.9..1.1).contains(&report.uncertainty_factor), "{}", report.uncertainty_factor);
+    for (number, truth) in [("zero of q3", 1.2e-3), ("zero of q4", -0.9e-3), ("zero of q5", 1.5e-3)] {
+        let found = report.joint_errors.iter().find(|one| one.number == number).unwrap();
+        let z = (found.value - truth) / found.standard_deviation;
+        assert!(z.abs() < 4.0 && found.standard_deviation < 4e-4, "{number} {found:?}");
+    }
+    let figures = report.test.as_ref().unwrap();
+    assert!((0.1..0.25).contains(&figures.after.mean), "{figures:?}");
+    let (found, found_map) = written(&report, &map);
+    let left = measured(found, found_map, simulated(&truth, 20, 2)).explained.left_mean;
+    assert!((left - figures.after.mean).abs() < 1e-3 * left, "{left} {figures:?}");
 }
 
 /// Without stated places, `measure` fits those of camera and board, and the intrinsic parameters.

@@ -236,7 +236,7 @@ fn joints_that_the_map_fixes_are_held() {
     let observations = job.run(&mut ()).unwrap().observations;
     let data =
         Data { file: "simulated".to_owned(), observations, stations: vec![String::new()], ..Data::default() };
-    let job = Compensate { machine, map, data, poses: false, tolerance: 1e-3 };
+    let job = Compensate { machine, map, data, poses: false, tolerance: 1e-3, weight: None };
     let report = job.run(&mut ()).unwrap();
     assert_eq!(report.held, ["q5", "q6"]);
     assert!(report.before.max > 1.0 && report.after.max < 1e-3, "{:?} {:?}", report.before, report.after);

@@ -190,7 +190,7 @@ fn stated_uncertainty_agrees_with_the_scatter_outside_the_ranges() {
     let (map, accept) = (map_of("0, 0, 0"), Acceptance::default());
     let job = Measure { machine: machine.clone(), map: map.clone(), data: data.clone(), accept };
     let measured = job.run(&mut ()).unwrap().extrapolated.unwrap().standard_deviation.unwrap();
-    let job = Compensate { machine, map, data, poses: false, tolerance: 1e-3 };
+    let job = Compensate { machine, map, data, poses: false, tolerance: 1e-3, weight: None };
     assert_eq!(job.run(&mut ()).unwrap().deviation, Some(measured.extrapolated));
     let mut quiet = RecordedNotes::default();
     assert!(measure(&near, &mut quiet).is_none() && quiet.0.is_empty(), "{:?}", quiet.0);

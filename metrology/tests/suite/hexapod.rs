@@ -1,7 +1,7 @@
 //! The 42 numbers of a six-legged platform: six lengths, and three coordinates of each of its
 //! twelve joints.
 
-use abbe::analysis::{Configuration, Workspace, compensated, random_joint_samples, sampling};
+use abbe::analysis::{Configuration, Goal, Workspace, compensated, random_joint_samples, sampling};
 use abbe::compensator::Status;
 use abbe::identify::{Measurement, Model, Observation, Options, Uncertainty, Unknown, fit, identifiable};
 use abbe::{Component, Distribution, Manipulator, Orientation, Pose, deviation, displacement};
@@ -128,7 +128,7 @@ fn compensated_platforms_reach_their_poses() {
     let samples = random_joint_samples(&real, &[0, 1, 2, 3, 4, 5], 100, 3).unwrap().reached();
     let mut corrected = 0;
     for at in samples.into_iter().filter(|at| sampling::closes(&real, &at.q, &at.s)) {
-        let found = compensated(&real, None, &at.q, &at.s, &at.u).unwrap();
+        let found = compensated(&real, Goal::default(), &at.q, &at.s, &at.u).unwrap();
         if found.status == Status::OutsideLimits {
             continue;
         }

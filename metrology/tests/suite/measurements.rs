@@ -367,7 +367,8 @@ fn the_share_of_rows_inside_verifies_the_model() {
 fn commands_are_compensated() {
     let map = map(POINT);
     let data = measurements(&map, 30, 4);
-    let job = Compensate { machine: real(), map: map.clone(), data, poses: false, tolerance: 1e-3 };
+    let job =
+        Compensate { machine: real(), map: map.clone(), data, poses: false, tolerance: 1e-3, weight: None };
     let report = job.run(&mut ()).unwrap();
     assert!(report.before.mean > 0.3 && report.compensated > 25, "{:?}", report.before);
     assert_eq!(report.table(&map).heading.len(), 6 + 6);
@@ -496,6 +497,85 @@ fn machines_near_the_limit_are_accepted_by_the_rule() {
         assert!(wrong[0] <= 9 && (figure == "max" || wrong[1] <= 9), "{figure}: {wrong:?}");
         assert!(undecided > 10, "{figure}: {undecided}");
     }
+}
+
+/// Holds that poses that the controller shows stand in place of the joints: rows have the joints at
+/// which the nominal machine has its tool there, nearest to those before, and give the same errors.
+#[test]
+fn poses_of_the_controller_stand_in_place_of_joints() {
+    let map = map(POINT);
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(8);
+    let near = |line| {
+        let q = [0.2, -1.2, 1.4, -0.6, 0.9, 0.3].map(|q| q + 1.2 * (random.random::<f64>() - 0.5));
+        Observation::new(line, q, vec![], Measurement::Points(vec![Some([0.0; 3])].into()))
+    };
+    let commanded =
+        Data { file: "joints".to_owned(), observations: (1..=60).map(near).collect(), ..Data::default() };
+    let job = Simulate { at: Places::Rows(commanded), machine: real(), ..simulate(&map, 1, 3) };
+    let rows = job.run(&mut ()).unwrap().observations;
+    let (_folder, path) = {
+        let mut text = "X,Y,Z,RX,RY,RZ,x,y,z\n".to_owned();
+        for row in &rows {
+            let pose = ur5().evaluator(false).pose(&row.q, &[]).unwrap();
+            let turn = abbe::rotation_vector(&pose).map(f64::to_degrees);
+            let Measurement::Points(points) = &row.measured else { unreachable!() };
+            let numbers = pose.position().map(|value| value / 1e3).into_iter().chain(turn);
+            let numbers = numbers.chain(points[0].unwrap()).map(|value| value.to_string());
+            text += &format!("{}\n", numbers.collect::<Vec<_>>().join(","));
+        }
+        file(&format!("{text}5,0,0,0,0,0,1,2,3\n"))
+    };
+    let text = map.text().replace(&joints(), "").replace(
+        "[joints]\n",
+        "[command_pose]\nposition = [\"X\", \"Y\", \"Z\"]\nunit = \"m\"\n\
+         rotation_vector = { columns = [\"RX\", \"RY\", \"RZ\"], unit = \"deg\" }\n",
+    );
+    let of_poses = Map::parse("poses.toml", &text, &ur5().spec).unwrap();
+    let posed = Data::read(&path, &of_poses).unwrap();
+    assert_eq!((posed.observations.len(), posed.unusable.len()), (60, 1));
+    assert!(posed.unusable[0].reason.contains("does not reach this pose"), "{:?}", posed.unusable);
+    for (a, b) in rows.iter().zip(&posed.observations) {
+        assert!(a.q.iter().zip(b.q.iter()).all(|(a, b)| (a - b).abs() < 1e-9), "{:?} {:?}", a.q, b.q);
+    }
+    let report = identify(&of_poses, posed.clone()).run(&mut ()).unwrap();
+    let mean = report.cross_validation.after.mean;
+    assert!(mean < 0.06, "{mean}");
+    let needs = simulate(&of_poses, 5, 1).run(&mut ()).unwrap_err().to_string();
+    assert!(needs.contains("needs joints") && needs.contains("[joints]"), "{needs}");
+    let both = format!("{}\n[joints]\n{}", of_poses.text(), joints());
+    let refused = Map::parse("both.toml", &both, &ur5().spec).unwrap_err().to_string();
+    assert!(refused.contains("in place of `[joints]`"), "{refused}");
+}
+
+/// Holds that a target fitted to the rows must be asked for where they judge the machine: one that
+/// is 3 mm from the tool of the program is rejected if its place is stated, absorbed if it is
+/// fitted, and then said to be.
+#[test]
+fn a_target_fitted_to_the_judged_rows_must_be_asked_for() {
+    let machine = ur5_with(
+        "\n[[source]]\nname = \"tool\"\nclass = \"repeatable\"\nframe = \"wrist 3\"\ne_x = \"3 mm\"\n",
+    );
+    let targets = |known: bool| {
+        let one = |(name, at): (&str, &str)| {
+            let position = if known { at } else { "\"unknown\"" };
+            let columns = ["x", "y", "z"].map(|axis| format!("{name}{axis}"));
+            format!("[[target]]\ncolumns = {columns:?}\nunit = \"mm\"\nposition = {position}\n")
+        };
+        map(&[("a", "[0, 0, 0]"), ("b", "[80, 0, 0]"), ("c", "[0, 80, 0]")].map(one).concat())
+    };
+    let job = Simulate { machine, map: targets(true), ..simulate(&targets(true), 40, 3) };
+    let observations = job.run(&mut ()).unwrap().observations;
+    let data = Data { file: "simulated".to_owned(), observations, ..Data::default() };
+    let judged = |known, accept: &str| {
+        let accept = Acceptance::read("--accept", accept, abbe::LengthUnit::Millimetre).unwrap();
+        Measure { machine: ur5(), map: targets(known), data: data.clone(), accept }.run(&mut ())
+    };
+    let stated = judged(true, "max 0.5 mm").unwrap();
+    assert!(!stated.tool_fitted && stated.accepted.unwrap().decision == Decision::Rejected);
+    let refused = judged(false, "max 0.5 mm").unwrap_err().to_string();
+    assert!(refused.contains("would not be judged") && refused.contains("target fitted"), "{refused}");
+    let fitted = judged(false, "max 0.5 mm, target fitted").unwrap();
+    assert!(fitted.tool_fitted && fitted.accepted.unwrap().is_met());
 }
 
 /// Holds that what a spec says of its machine is predicted exactly, not to first order: rows of its

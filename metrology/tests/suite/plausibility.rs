@@ -98,8 +98,8 @@ fn measured(machine: &Machine, map: &Map, data: &Data) -> Result<Vec<String>, St
         data: data.clone(),
         accept: Acceptance::default(),
     };
-    let report = job.run(&mut recorded).map_err(|mistake| mistake.to_string())?;
-    Ok([recorded.0, report.notes].concat())
+    job.run(&mut recorded).map_err(|mistake| mistake.to_string())?;
+    Ok(recorded.0)
 }
 
 /// Returns the outcome of an identification and its warnings.
@@ -217,8 +217,7 @@ fn gross_errors_do_not_make_data_implausible() {
     let said = measured(&machine, &map, &half).unwrap();
     assert!(
         said.len() == 1
-            && said[0].contains("than the map states")
-            && said[0].contains("`base = \"unknown\"` in the map")
+            && said[0].contains("Check the placement of the instrument")
             && !said[0].contains(IMPLAUSIBLE),
         "{said:?}"
     );

@@ -213,7 +213,10 @@ fn placement_is_not_compensated() {
     let commands = measured(&guess, 40, 3);
     let compensated = |machine: Machine| {
         let (map, data) = (guess.clone(), commands.clone());
-        Compensate { machine, map, data, poses: false, tolerance: 1e-3 }.run(&mut ()).unwrap().before
+        Compensate { machine, map, data, poses: false, tolerance: 1e-3, weight: None }
+            .run(&mut ())
+            .unwrap()
+            .before
     };
     let (own, found) = (compensated(real()), compensated(found));
     assert!(own.max > 1.0, "{own:?}");
@@ -314,7 +317,10 @@ fn a_reflector_on_the_last_axis() {
     let commands = measured(&guess, 40, 3);
     let compensated = |machine: Machine| {
         let (map, data) = (guess.clone(), commands.clone());
-        Compensate { machine, map, data, poses: false, tolerance: 1e-3 }.run(&mut ()).unwrap().before
+        Compensate { machine, map, data, poses: false, tolerance: 1e-3, weight: None }
+            .run(&mut ())
+            .unwrap()
+            .before
     };
     let (own, found) = (compensated(real()), compensated(found));
     assert!(found.angle_max <= 1.2 * own.angle_max, "{found:?} {own:?}");

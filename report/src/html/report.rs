@@ -6,9 +6,11 @@
 
 use std::path::Path;
 
+use abbe::analysis::sampling;
 use abbe_metrology::data::{Map, Source};
 use abbe_spec::{Diagnostics, Spec};
 use abbe_study::explore::{self, Explore};
+use abbe_study::number::{error_unit, fixed};
 use abbe_study::{Machine, Notes, Residuals, RunRecord, version};
 
 use super::document::cards;
@@ -21,8 +23,8 @@ use crate::svg;
 const LONG: usize = 12;
 
 impl Document {
-    /// Builds the page of a report on measurements, with a live panel of the machine and its
-    /// residuals, if there are any. `files` are the kinds and the data of the job.
+    /// Builds the page of a report on measurements, with a live panel of the machine, and its
+    /// residuals row by row, if there are any. `files` are the kinds and the data of the job.
     ///
     /// # Errors
     ///
@@ -36,8 +38,12 @@ impl Document {
         notes: &mut dyn Notes,
     ) -> Result<String, Diagnostics> {
         let provenance = Provenance::new(&machine.spec, map, files)?;
+        let rows = residuals.as_ref().map(|residuals| {
+            Section::full("Row by row").table(row_by_row(residuals, machine.spec.length.symbol()))
+        });
+        let sections = self.sections.iter().cloned().chain(rows).collect();
         let live = Explore::measured(machine.clone(), residuals).run(notes)?;
-        Ok(self.page(&provenance, Some(&live)))
+        Ok(Self { sections, ..self.clone() }.page(&provenance, Some(&live)))
     }
 
     /// Builds the page of the report; `live` is the data of its live panel.
@@ -59,6 +65,29 @@ impl Document {
         body += &provenance.sections(&self.record, self.is_signed);
         document(&format!("{}: {}", self.machine, self.kind.to_lowercase()), &body, panels.as_ref())
     }
+}
+
+/// Tabulates the errors of measured rows, in `F_0`.
+fn row_by_row(residuals: &Residuals, length: &str) -> Table {
+    let (factor, unit) = error_unit(length);
+    let Residuals { before, after, count, rows, .. } = residuals;
+    let chosen = match rows.len() == *count {
+        true => String::new(),
+        false => format!(" of {} rows, evenly chosen from {count}", rows.len()),
+    };
+    let [norm, x, y, z] = ["norm", "x", "y", "z"].map(|part| format!(">{after}: {part}"));
+    let before = before.as_deref().map(|name| format!(">{name}: norm"));
+    let columns: Vec<String> = ["line".to_owned()].into_iter().chain(before).chain([norm, x, y, z]).collect();
+    let rows = rows.iter().map(|row| {
+        let sizes = row.before.map(sampling::norm).into_iter().chain([sampling::norm(row.after)]);
+        let numbers = sizes.chain(row.after).map(|value| fixed(factor * value, 4));
+        [row.line.to_string()].into_iter().chain(numbers).collect()
+    });
+    Table::listing(
+        format!("Position errors{chosen}, in the axes of F_0, in {unit}"),
+        &columns,
+        rows.collect(),
+    )
 }
 
 /// Formats a section with its figures numbered after the `drawn` ones; empty without blocks.

@@ -4,6 +4,7 @@ use abbe::{Class, Description, VariableKind};
 use abbe_metrology::compensate::{NormStatistics, Report, RowSummary};
 use abbe_metrology::data::Map;
 use abbe_spec::Spec;
+use abbe_spec::option::WEIGHT_ONE_METRE;
 use abbe_study::number::{NO_BREAK, counted, error_decimals, error_unit, fixed, length, short, visible};
 
 use super::shared::{data_rows, extrapolated, first_rows};
@@ -98,9 +99,15 @@ fn facts(machine: &Description, report: &Report) -> Vec<(&'static str, String)> 
     if let Some((line, angles)) = &report.row_summary.most_turned {
         let rows = counted(report.row_summary.turned, "row", "rows");
         let [before, after] = angles.map(|angle| visible(1e3 * angle, 4));
+        let priority = match report.weight {
+            None => format!(
+                "The position of the tool point has priority; `{WEIGHT_ONE_METRE}` weighs 1 rad as 1 m"
+            ),
+            Some(weight) => format!("1 rad weighs as {}", length(weight, machine.length)),
+        };
         let text = format!(
             "the orientation of {rows} is farther off than without correction, most in line {line}: {after} \
-             mrad, {before} before. The position of the tool point has priority"
+             mrad, {before} before. {priority}"
         );
         facts.push(("Turned", text));
     }
@@ -111,8 +118,9 @@ fn facts(machine: &Description, report: &Report) -> Vec<(&'static str, String)> 
     }
     if report.mobility < 6 {
         let text = format!(
-            "the joints move the tool in {} of 6 degrees of freedom; position has priority",
-            report.mobility
+            "the joints move the tool in {} of 6 degrees of freedom{}",
+            report.mobility,
+            if report.weight.is_none() { "; position has priority" } else { "" }
         );
         facts.push(("Freedom", text));
     }

@@ -3,7 +3,7 @@
 //! of the specs that the calibrations wrote.
 
 use abbe::analysis::{
-    Configuration, Correction, Measurand, Residual, Workspace, errors_at, random_joint_samples,
+    Configuration, Correction, Goal, Measurand, Residual, Workspace, errors_at, random_joint_samples,
 };
 use abbe::identify::{Criterion, Loss};
 use abbe::{Class, Manipulator, drawn_pose};
@@ -176,7 +176,7 @@ fn coverage(truth: &str, found: &Machine, tolerance: f64, numbers: &mut impl Rng
         let claimed = errors.distribution(Measurand::Position, Some(correction)).coverage(tolerance, 0);
         sum.claimed += claimed.0.probability;
         let Configuration { q, s, u } = configuration;
-        let command = abbe::analysis::compensated(&*found, None, q, s, u).expect("a command").q;
+        let command = abbe::analysis::compensated(&*found, Goal::default(), q, s, u).expect("a command").q;
         let ideal = nominal.pose(q, s).expect("a pose").position();
         for _ in 0..DRAWS {
             let magnitudes = truth.description().sources.iter().map(|source| match source.class {

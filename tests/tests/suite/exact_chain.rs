@@ -1,7 +1,7 @@
 //! The exact chain with errors of joints, parameters, DH parameters and points on links, far beyond
 //! first order, equals the nominal chain of the real machine.
 
-use abbe::analysis::{Configuration, compensated, monte_carlo};
+use abbe::analysis::{Configuration, Goal, compensated, monte_carlo};
 use abbe::{Function, Manipulator, Pose, chain, drawn_pose, laws, located, real_pose, repeatable_magnitudes};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
@@ -239,7 +239,7 @@ fn compensated_joints_are_moved_back() {
         "[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"q1\"\nerror = \"0.02 rad\"\n[[source]]\nname = \"scale\"\nclass = \"repeatable\"\njoint = \"d4\"\nerror = \"0.01*d4\"\n",
     );
     let q = CONFIGURATIONS[1];
-    let command = compensated(&robot, None, &q, &[300.0], &[]).unwrap();
+    let command = compensated(&robot, Goal::default(), &q, &[300.0], &[]).unwrap();
     let expected = [q[0] - 0.02, q[1], q[2], q[3] / 1.01, q[4]];
     for (found, expected) in command.q.iter().zip(expected) {
         assert!((found - expected).abs() < 1e-6, "{:?}", command.q);

@@ -1,6 +1,6 @@
 //! Tests of `statistics.rs`.
 
-use super::{Observability, deviation_beyond, f_test, student_beyond, student_factor};
+use super::{deviation_beyond, f_test, student_beyond, student_factor};
 
 #[test]
 fn probabilities_are_those_of_the_tables() {
@@ -23,11 +23,4 @@ fn probabilities_are_those_of_the_tables() {
         assert!((student_factor(0.95, freedom) - t).abs() < 1e-5, "{freedom}");
     }
     assert_eq!(student_beyond(0.0, 7.0), 1.0);
-}
-
-#[test]
-fn indices_of_known_values() {
-    let found = Observability::from_singular_values(&[2.0, 0.5], 4);
-    assert_eq!((found.condition, found.o2, found.o3, found.o4, found.o5), (4.0, 0.25, 0.5, 0.125, 0.4));
-    assert!((found.o1 - 0.5).abs() < 1e-15);
 }

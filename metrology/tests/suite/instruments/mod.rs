@@ -325,17 +325,28 @@ fn a_distance_is_as_uncertain_as_stated() {
     assert!((square - 1.0).abs() < spread, "{square} {spread}");
 }
 
-/// A distance to an instrument that no row reads is refused.
+/// A distance to an instrument that no row reads is refused while its position is unknown; once it
+/// is found, other sockets can be measured alone.
 #[test]
 fn a_distance_needs_rows_at_both_ends() {
     let rows = simulated(&contacts(), 240, 3);
+    let found = identified(&sockets_apart(0.0), rows.clone(), 0.002).found;
     let observations = rows.observations.iter().filter(|row| {
         matches!(&row.measured, abbe::identify::Measurement::Readings(readings) if readings[3].is_none())
     });
     let rows = Data { observations: observations.cloned().collect(), ..rows.clone() };
-    let refused = identification(&sockets_apart(0.0), rows, None, 0.002).unwrap_err().to_string();
+    let refused = identification(&sockets_apart(0.0), rows.clone(), None, 0.002).unwrap_err().to_string();
     assert!(refused.contains("no row reads the instrument `contact2`"), "{refused}");
     assert!(refused.contains("remove its [[distance]]"), "{refused}");
+    let nominal = ur5();
+    let spec = found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
+    let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
+    let text = found.identified_map(&sockets_apart(0.0), &nominal.spec, "found.map.toml").unwrap();
+    assert!(text.contains("[[distance]]"), "{text}");
+    let map = Map::parse("found.map.toml", &text, &machine.spec).unwrap();
+    let measured = Measure { machine, map, data: rows, accept: Acceptance::default() }.run(&mut ()).unwrap();
+    let noise = 0.01 * 3f64.sqrt();
+    assert!((measured.explained.left_rms / noise - 1.0).abs() < 0.2, "{:?}", measured.explained);
 }
 
 /// Six axes and a point at an unknown place on the tool have 4 · 6 + 3 = 27 identifiable

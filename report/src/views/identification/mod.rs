@@ -108,9 +108,6 @@ fn placement(report: &Report) -> Section {
 
 /// Lists what the data determine, and what they cannot distinguish.
 fn identifiable(report: &Report) -> Section {
-    let o = report.observability;
-    let [condition, o1, o2, o3, o4, o5] =
-        [report.condition, o.o1, o.o2, o.o3, o.o4, o.o5].map(|value| digits(value, 3));
     let unexplained = (report.unexplained > 0).then(|| {
         format!(
             "{} more combinations have no effect at these configurations; other configurations may \
@@ -129,10 +126,7 @@ fn identifiable(report: &Report) -> Section {
         .table(indistinguishable(&report.groups))
         .state("unexplained_combinations", unexplained)
         .state(
-            "observability",
-            format!(
-                "Condition number {condition}; observability O1 {o1}, O2 {o2}, O3 {o3}, O4 {o4}, O5 {o5} \
-                 (columns of unit length)."
-            ),
+            "condition",
+            format!("Condition number {} (columns of unit length).", digits(report.condition, 3)),
         )
 }

@@ -12,7 +12,10 @@ pub(super) fn places(report: &Report) -> Table {
     let columns = ["place", ">x", ">y", ">z", "", "± 1 σ"];
     let row = |name: String, at: [f64; 3], variances: [f64; 3]| {
         let [x, y, z] = at.map(|value| fixed(factor * value, 3));
-        let deviations = variances.map(|variance| digits(factor * variance.max(0.0).sqrt(), 2));
+        let deviations = variances.map(|variance| match variance > 0.0 {
+            true => digits(factor * variance.sqrt(), 2),
+            false => "held".to_owned(),
+        });
         let is_fitted = variances.iter().any(|variance| *variance > 0.0);
         is_fitted.then(|| [name, x, y, z, unit.to_owned(), deviations.join(", ")])
     };

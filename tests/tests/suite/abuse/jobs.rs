@@ -105,7 +105,9 @@ pub(crate) fn of_data(machine: &Machine, map: &Map, data: &Path, asked: Asked) -
         }
         Asked::Compensate => {
             let data = Data::read_commanded(data, &map)?;
-            Compensate { machine, map, data, poses: false, tolerance: 1e-3 }.run(&mut notes()).map(drop)
+            Compensate { machine, map, data, poses: false, tolerance: 1e-3, weight: None }
+                .run(&mut notes())
+                .map(drop)
         }
         Asked::Simulate => {
             let at = Places::Rows(Data::read_commanded(data, &map)?);

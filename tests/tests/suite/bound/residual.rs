@@ -1,6 +1,6 @@
 //! The error after one step of compensation never exceeds its certified bound.
 
-use abbe::analysis::{compensated, sampling};
+use abbe::analysis::{Goal, compensated, sampling};
 use abbe::compensator::norms;
 use abbe::{Class, Manipulator, Orientation, VariableKind, deviation, drawn_pose};
 use abbe_bound::{Bound, Effort, Moving, largest};
@@ -167,7 +167,7 @@ fn the_compensator_leaves_no_more() {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(15);
     let (mut before, mut looked) = (0.0_f64, 0);
     for _ in 0..300 {
-        let found = compensated(&robot, None, &place(&joints, &mut random), &s, &u).unwrap();
+        let found = compensated(&robot, Goal::default(), &place(&joints, &mut random), &s, &u).unwrap();
         let is_held = robot
             .description()
             .variables

@@ -1,6 +1,6 @@
 //! Compensation at limits and near singular poses, compared with an independent bounded solver.
 
-use abbe::analysis::{compensated, sampling};
+use abbe::analysis::{Goal, compensated, sampling};
 use abbe::compensator::norms;
 use abbe::{Manipulator, Orientation, Pose, VariableKind, deviation, drawn_pose, repeatable_magnitudes};
 use abbe_interpreter::Interpreter;
@@ -79,8 +79,9 @@ impl<'a> Reference<'a> {
         t
     }
 
-    /// Returns the remaining errors from every start.
-    fn all(&self) -> Vec<(f64, f64)> {
+    /// Returns the remaining errors from every start, in metres and rad, by one weight after the
+    /// other.
+    fn all(&self, weights: [f64; 2]) -> Vec<(f64, f64)> {
         let start = |k: usize| {
             let each = self.bounds.iter().zip(self.command).enumerate();
             let shares = each.map(|(j, ([l, u], q))| {
@@ -93,7 +94,7 @@ impl<'a> Reference<'a> {
         };
         (0..3)
             .map(|k| {
-                let t = self.descend(self.descend(start(k), 1e-2), 1e-5);
+                let t = weights.into_iter().fold(start(k), |t, weight| self.descend(t, weight));
                 let (length, angle) = norms(&self.left(&self.q(&t)));
                 (length / self.metre, angle)
             })
@@ -145,7 +146,7 @@ fn no_bounded_solver_does_better(name: &str, count: usize, others: usize) {
     let (mut arrived, mut short, mut elsewhere) = (0, 0, 0);
     let (mut worst, mut turned) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     for q in hard_rows(&robot, &s, count) {
-        let command = compensated(&robot, None, &q, &s, &u).unwrap();
+        let command = compensated(&robot, Goal::default(), &q, &s, &u).unwrap();
         assert!(within(&robot, &command.q));
         let (length, angle) = norms(&command.after);
         let length = length * metre;
@@ -155,7 +156,7 @@ fn no_bounded_solver_does_better(name: &str, count: usize, others: usize) {
         }
         short += usize::from(length > 1e-6);
         let mut best = angle;
-        for (other, turn) in Reference::new(&robot, &s, &u, &q).all() {
+        for (other, turn) in Reference::new(&robot, &s, &u, &q).all([1e-2, 1e-5]) {
             worst = worst.max(length - other);
             assert!(length <= other + 1e-6, "{name} at {q:?}: {length} m, but {other} m can be had");
             if other < 1e-9 {
@@ -173,6 +174,44 @@ fn no_bounded_solver_does_better(name: &str, count: usize, others: usize) {
     );
     assert!(arrived < count);
     assert!(elsewhere <= others, "{elsewhere} rows end in another minimum");
+}
+
+/// Holds that a weight is kept: the weighted error is never larger than without correction, and no
+/// independent search does better; with 1 m for 1 rad, 0.1 mm more of position would pay for 0.1
+/// mrad.
+#[test]
+fn no_weighted_error_is_larger_than_without_correction() {
+    for (name, count) in [("puma560", 30), ("ur5", 24), ("iiwa", 15)] {
+        let robot = Interpreter::new(with_errors(name));
+        let description = robot.description();
+        let metre = description.length.in_metres();
+        let (s, u) = (sampling::nominal_parameters(description), sampling::nominal_inputs(description));
+        let (mut less, mut turned) = (0, 0);
+        for q in hard_rows(&robot, &s, count) {
+            for weight in [0.05, 1.0] {
+                let size = |rows: &[f64; 6]| {
+                    let (length, angle) = norms(rows);
+                    (length * metre).hypot(weight * angle)
+                };
+                let goal = Goal { weight: Some(weight / metre), ..Goal::default() };
+                let found = compensated(&robot, goal, &q, &s, &u).unwrap();
+                assert!(within(&robot, &found.q));
+                let (before, after) = (size(&found.before), size(&found.after));
+                assert!(after <= before, "{name} at {q:?}, {weight} m: {after} m after, {before} m before");
+                let others = Reference::new(&robot, &s, &u, &q).all([weight; 2]).into_iter();
+                let other = others.map(|(length, angle)| length.hypot(weight * angle)).fold(before, f64::min);
+                assert!(
+                    after <= other + 1e-6,
+                    "{name} at {q:?}, {weight} m: {other} m can be had, {after} m"
+                );
+                let first = compensated(&robot, Goal::default(), &q, &s, &u).unwrap();
+                less += usize::from(size(&first.after) > after + 1e-6);
+                turned += usize::from(norms(&first.after).1 > norms(&first.before).1 + 1e-5);
+            }
+        }
+        println!("{name}: less than with priority for the position in {less}, turned without in {turned}");
+        assert!(less > 0, "{name}");
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use abbe::analysis::{compensated, sampling};
+use abbe::analysis::{Goal, compensated, sampling};
 use abbe::compensator::{Status, norms};
 use abbe::{Description, Error, Function, Manipulator};
 use abbe_interpreter::Interpreter;
@@ -43,7 +43,7 @@ fn searches_at_singular_corners_make_progress() {
     let (mut nodes, mut moving, mut largest) = (0, 0, 0.0_f64);
     for node in (0..729_usize).step_by(every) {
         let q: Vec<f64> = (0..6).map(|j: u32| [-PI, 0.0, PI][node / 3_usize.pow(j) % 3]).collect();
-        let found = compensated(&counted, None, &q, &s, &u).unwrap();
+        let found = compensated(&counted, Goal::default(), &q, &s, &u).unwrap();
         let (length, angle) = norms(&found.after);
         assert!(within(&robot, &found.q), "{q:?}");
         assert!(length * description.length.in_metres() < 1e-9, "{q:?}: {length}");

@@ -6,7 +6,7 @@ mod corners;
 pub(crate) mod cycles;
 
 use abbe::analysis::{
-    Axis, Missing, Presentation, Workspace, compensated, mobility, obstacle, presented_volume, sampling,
+    Axis, Goal, Missing, Presentation, Workspace, compensated, mobility, obstacle, presented_volume, sampling,
 };
 use abbe::compensator::{Cycle, Status, norms};
 use abbe::{
@@ -154,7 +154,7 @@ fn compensates(name: &str, whole: bool, regular_above: f64) {
     let (s, u) = (sampling::nominal_parameters(description), sampling::nominal_inputs(description));
     let (mut regular, mut before, mut after, mut turned) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
     for q in samples(&robot, 300) {
-        let command = compensated(&robot, None, &q, &s, &u).unwrap();
+        let command = compensated(&robot, Goal::default(), &q, &s, &u).unwrap();
         assert!(within(&robot, &command.q));
         let (was, is) = (norms(&command.before), norms(&command.after));
         assert!(is.0 <= was.0, "{name} at {q:?}: {was:?} {is:?}");
@@ -197,7 +197,7 @@ fn a_redundant_arm_stays_near_the_nominal() {
         if least_singular_value(&robot, &q, &s.to_array()) < 0.1 {
             continue;
         }
-        let command = compensated(&robot, None, &q, &s.to_array(), &u.to_array()).unwrap();
+        let command = compensated(&robot, Goal::default(), &q, &s.to_array(), &u.to_array()).unwrap();
         let q: [f64; 7] = q.try_into().unwrap();
         let (_, columns) = iiwa::joint_jacobian(&q, &s).unwrap();
         let jacobian = abbe::jacobian_view(&columns).into_owned();
@@ -265,8 +265,8 @@ fn obstacles_are_the_true_ones() {
     let planar = format!("{}{}", revolute("q1", "limits = [-1, 1]"), revolute("q2", "limits = [-1, 1]"));
     let short = small_arm(&planar, "frame = \"q2\"\ne_x = \"-0.5 mm\"\n");
     let at = |robot: &Interpreter, q: &[f64]| {
-        let found = compensated(robot, None, q, &[], &[]).unwrap();
-        obstacle(robot, None, q, &[], &[], &found, [1e-3, f64::INFINITY]).unwrap()
+        let found = compensated(robot, Goal::default(), q, &[], &[]).unwrap();
+        obstacle(robot, Goal::default(), q, &[], &[], &found, [1e-3, f64::INFINITY]).unwrap()
     };
     let stretched = at(&short, &[0.3, 0.0]).unwrap();
     assert!(matches!(stretched.missing, Missing::Point(left) if (left - 0.5).abs() < 1e-3), "{stretched:?}");
@@ -299,11 +299,11 @@ fn a_five_axis_machine_is_not_singular() {
     let robot = small_arm(&frames, "frame = \"z\"\ne_r = \"1 mrad\"\ne_x = \"0.2 mm\"\n");
     assert_eq!(mobility(&robot, &[]).unwrap(), 5);
     let q = [0.0, 0.0, 0.0, 0.0, 0.4, 0.3];
-    let found = compensated(&robot, None, &q, &[], &[]).unwrap();
+    let found = compensated(&robot, Goal::default(), &q, &[], &[]).unwrap();
     assert!(
         found.status == Status::NotReached && norms(&found.after).0 < 1e-7 && norms(&found.after).1 > 1e-4
     );
-    let obstacle = obstacle(&robot, None, &q, &[], &[], &found, [1e-3, 1e-6]).unwrap().unwrap();
+    let obstacle = obstacle(&robot, Goal::default(), &q, &[], &[], &found, [1e-3, 1e-6]).unwrap().unwrap();
     assert!(obstacle.immobile && matches!(obstacle.missing, Missing::Turn(_)), "{obstacle:?}");
 }
 
@@ -321,7 +321,7 @@ fn whether_the_steps_were_enough_is_said() {
     let mut more = 0;
     for q in hard_rows(&robot, &s, 60) {
         let fixed = fixed_cost(&robot, &q, &s);
-        let best = compensated(&robot, None, &q, &s, &[]).unwrap();
+        let best = compensated(&robot, Goal::default(), &q, &s, &[]).unwrap();
         more += usize::from(
             fixed.status == Status::NotConverged && norms(&best.after).0 < norms(&fixed.after).0 - 1e-6,
         );

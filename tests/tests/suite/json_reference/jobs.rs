@@ -224,8 +224,14 @@ fn measured() -> Vec<(&'static str, Value)> {
         all.push(("IdentifyReport", json(&job.run(&mut ()).unwrap())));
     }
     let commanded = Data::read_commanded(rows.as_path(), &map()).unwrap();
-    let job =
-        Compensate { machine: real.clone(), map: map(), data: commanded, poses: false, tolerance: 1e-3 };
+    let job = Compensate {
+        machine: real.clone(),
+        map: map(),
+        data: commanded,
+        poses: false,
+        tolerance: 1e-3,
+        weight: None,
+    };
     all.push(("CompensateReport", json(&job.run(&mut ()).unwrap())));
     let choice = Choice::Optimal { criterion: Criterion::Variance, count: 12, candidates: 30 };
     let study = Study::find(None, &nominal).unwrap();
