@@ -172,9 +172,8 @@ fn a_camera_identifies_the_machine_on_tool_and_in_room() {
 /// all, two tags, or one; and the written map has them.
 #[test]
 fn tags_in_three_dimensions_identify_the_machine() {
-    let face = |at: &dyn Fn([f64; 2]) -> [f64; 3]| {
-        [[10.0, 10.0], [70.0, 10.0], [70.0, 70.0], [10.0, 70.0]].map(at)
-    };
+    let face =
+        |at: &dyn Fn([f64; 2]) -> [f64; 3]| [[10.0, 10.0], [70.0, 10.0], [70.0, 70.0], [10.0, 70.0]].map(at);
     let faces = [face(&|[x, y]| [x, y, 0.0]), face(&|[x, y]| [x, 0.0, y]), face(&|[x, y]| [0.0, x, y])];
     let corners = format!(
         "corners = {:?}\n",
