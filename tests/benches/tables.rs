@@ -58,7 +58,7 @@ impl Kernel for Sum<'_> {
                 sum = sum + Lanes::<R>::from_fn(|lane| x[lane]).sin();
             }
         }
-        sum.to_slice().iter().sum()
+        sum.as_slice().iter().sum()
     }
 }
 

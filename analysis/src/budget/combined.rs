@@ -165,16 +165,16 @@ impl<R: Register> CombinedAccumulator<R> {
         let minor = least_minor(covariance, longest * longest * (1.0 + ALIKE));
         // Without random errors all are 0, and the ellipsoid is unchanged.
         if Lanes::constant(0.0).more_than(minor).any() {
-            self.longer(sums, minor.to_slice(), &index);
+            self.longer(sums, minor.as_slice(), &index);
         }
     }
 
     #[cold]
     #[inline(never)]
     fn longer(&mut self, sums: &Sums<R>, minors: &[f64], index: &dyn Fn(usize) -> usize) {
-        let [xx, yy, zz, xy, xz, yz] = sums.covariance.each_ref().map(Lanes::to_slice);
-        for (lane, place) in sums.place.to_slice().iter().enumerate() {
-            if minors[lane] >= 0.0 || sums.weight.to_slice()[lane] == 0.0 {
+        let [xx, yy, zz, xy, xz, yz] = sums.covariance.each_ref().map(Lanes::as_slice);
+        for (lane, place) in sums.place.as_slice().iter().enumerate() {
+            if minors[lane] >= 0.0 || sums.weight.as_slice()[lane] == 0.0 {
                 continue;
             }
             let covariance = [

@@ -91,14 +91,14 @@ impl<R: Register> LeastLikelyAccumulator<R> {
         self.farthest.add((variance / mean).sqrt().mul_add(half, middle), sums.place);
         let most = self.least.kept.get(KEPT - 1).map_or(f64::INFINITY, |(most, _)| *most);
         if number(most).more_than(deviations).any() {
-            self.keep(deviations.to_slice(), sums, &index);
+            self.keep(deviations.as_slice(), sums, &index);
         }
     }
 
     #[cold]
     #[inline(never)]
     fn keep(&mut self, deviations: &[f64], sums: &Sums<R>, index: &dyn Fn(usize) -> usize) {
-        let places = sums.place.to_slice().iter().zip(sums.weight.to_slice());
+        let places = sums.place.as_slice().iter().zip(sums.weight.as_slice());
         for (deviations, (place, weight)) in deviations.iter().zip(places) {
             if *weight != 0.0 {
                 self.least.add(*deviations, index(*place as usize));

@@ -99,7 +99,7 @@ impl<R: Register> OverSignsAccumulator<R> {
     #[inline(never)]
     fn apart(&self, rows: &[Lanes<R>], sums: &Sums<R>) -> Lanes<R> {
         Lanes::from_fn(|lane| {
-            let at = |row: &Lanes<R>| row.to_slice()[lane];
+            let at = |row: &Lanes<R>| row.as_slice()[lane];
             let vector = |(first, _): &(usize, [f64; 3])| core::array::from_fn(|i| at(&rows[first + i]));
             let vectors: Vec<[f64; 3]> = self.unknown.iter().map(vector).collect();
             norm(worst_case(sums.repeatable.each_ref().map(at), &vectors))

@@ -27,7 +27,7 @@ impl<R: Register> Peak<R> {
     /// if nothing was added.
     #[inline(always)]
     pub(super) fn finish(self) -> Option<(f64, usize)> {
-        let lanes = self.value.to_slice().iter().zip(self.place.to_slice());
+        let lanes = self.value.as_slice().iter().zip(self.place.as_slice());
         let best = lanes.fold(None, |best: Option<(f64, f64)>, (&value, &place)| match best {
             Some(best) if best.0 > value || best.0 == value && best.1 < place => Some(best),
             _ => Some((value, place)),
@@ -39,19 +39,19 @@ impl<R: Register> Peak<R> {
 /// Returns the largest value of all lanes.
 #[inline(always)]
 pub(super) fn largest<R: Register>(lanes: Lanes<R>) -> f64 {
-    lanes.to_slice().iter().fold(f64::NEG_INFINITY, |largest, value| largest.max(*value))
+    lanes.as_slice().iter().fold(f64::NEG_INFINITY, |largest, value| largest.max(*value))
 }
 
 /// Returns the smallest value of all lanes.
 #[inline(always)]
 pub(super) fn least<R: Register>(lanes: Lanes<R>) -> f64 {
-    lanes.to_slice().iter().fold(f64::INFINITY, |least, value| least.min(*value))
+    lanes.as_slice().iter().fold(f64::INFINITY, |least, value| least.min(*value))
 }
 
 /// Returns the sum of all lanes, in the order of the lanes.
 #[inline(always)]
 pub(super) fn sum<R: Register>(lanes: Lanes<R>) -> f64 {
-    lanes.to_slice().iter().sum()
+    lanes.as_slice().iter().sum()
 }
 
 /// Returns `x² + y² + z²`.

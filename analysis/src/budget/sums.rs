@@ -121,7 +121,7 @@ impl SourceKinds {
 #[inline(never)]
 fn error_with_parts<R: Register>(parts: &[usize], rows: &[Lanes<R>]) -> ([Lanes<R>; 3], Lanes<R>) {
     let at = |lane: usize| {
-        let part = |k: &usize| [0, 1, 2].map(|row| rows[6 * k + row].to_slice()[lane]);
+        let part = |k: &usize| [0, 1, 2].map(|row| rows[6 * k + row].as_slice()[lane]);
         parts::outer_sum(parts.iter().map(part))
     };
     let along = [0, 1, 2].map(|row| Lanes::from_fn(|lane| at(lane)[row][row].sqrt()));

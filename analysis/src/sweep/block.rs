@@ -302,7 +302,7 @@ impl Kernel for Scaled<'_> {
                 nothing = rows[6 * self.bounds.len()].mul_add(zero, nothing);
             }
         }
-        nothing.to_slice().iter().all(|value| *value == 0.0)
-            && margin.to_slice().iter().all(|margin| *margin >= MINIMUM_MARGIN)
+        nothing.as_slice().iter().all(|value| *value == 0.0)
+            && margin.as_slice().iter().all(|margin| *margin >= MINIMUM_MARGIN)
     }
 }

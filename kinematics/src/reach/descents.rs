@@ -158,7 +158,7 @@ impl Lane {
         place: usize,
         problem: &Problem<'_>,
     ) -> Option<Result<DescentEnd, Error>> {
-        let norm = states.after.to_slice()[place];
+        let norm = states.after.as_slice()[place];
         let ended = || Some(Ok(states.ended(problem, place, self.bounded)));
         if self.fresh && !norm.is_finite() {
             return Some(Err(Error::NotFinite { quantity: Quantity::Jacobian, index: 0 }));
@@ -281,7 +281,7 @@ impl<R: Register, const ROWS: usize> LaneStates<R, ROWS> {
             let moved = self.step[j].mul_add(share, self.q[j]).min(upper).max(lower);
             self.candidate[j] = fresh.select(self.candidate[j], moved);
         }
-        for (lane, size) in lanes.iter_mut().zip(any.to_slice()) {
+        for (lane, size) in lanes.iter_mut().zip(any.as_slice()) {
             if let Some(lane) = lane.as_mut().filter(|lane| !lane.fresh) {
                 lane.stuck = *size == 0.0;
             }
@@ -291,14 +291,14 @@ impl<R: Register, const ROWS: usize> LaneStates<R, ROWS> {
     fn ended(&self, problem: &Problem<'_>, place: usize, bounded: bool) -> DescentEnd {
         let mut q = problem.starts[0].clone();
         for (j, &i) in problem.free.iter().enumerate() {
-            let value = self.q[j].to_slice()[place] * problem.unit(j);
+            let value = self.q[j].as_slice()[place] * problem.unit(j);
             let [lower, upper] = problem.variable(j).limits;
             q[i] = if bounded { value.min(upper).max(lower) } else { value };
         }
-        let rows: [f64; ROWS] = core::array::from_fn(|row| self.here.rows[row].to_slice()[place]);
+        let rows: [f64; ROWS] = core::array::from_fn(|row| self.here.rows[row].as_slice()[place]);
         let (position, turn) = rows.split_at(3);
         let norm = |rows: &[f64]| rows.iter().fold(0.0, |norm: f64, row| norm.hypot(*row));
-        let norm_of_all = self.here.norm.to_slice()[place];
+        let norm_of_all = self.here.norm.as_slice()[place];
         let position = norm(position);
         // The rows of a rotation by θ have the norm 2 sin θ/2. Beyond a right angle the total norm
         // is more accurate.

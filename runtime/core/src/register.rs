@@ -130,7 +130,7 @@ impl<R: Register> Lanes<R> {
 
     /// Returns the values of the lanes.
     #[inline(always)]
-    pub fn to_slice(&self) -> &[f64] {
+    pub fn as_slice(&self) -> &[f64] {
         self.0.lanes()
     }
 

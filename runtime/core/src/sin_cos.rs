@@ -188,7 +188,7 @@ pub(crate) fn each<R: Register, const N: usize>(angles: [f64; N]) -> [(f64, f64)
         let j = (i + 1).min(N - 1);
         let pair = [angles[i], angles[j]];
         let (sines, cosines) = near(Lanes::<R>::from_fn(|lane| pair[lane]));
-        let (sines, cosines) = (sines.to_slice(), cosines.to_slice());
+        let (sines, cosines) = (sines.as_slice(), cosines.as_slice());
         results[j] = (sines[1], cosines[1]);
         results[i] = (sines[0], cosines[0]);
     }

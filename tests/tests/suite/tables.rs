@@ -158,7 +158,7 @@ impl Kernel for InLanes<'_> {
         for x in self.1.chunks(R::WIDTH) {
             let lanes = Lanes::<R>::from_fn(|lane| x[lane.min(x.len() - 1)]);
             let (value, slope) = (self.0.value(lanes), self.0.derivative(1, lanes));
-            let pairs = value.to_slice().iter().zip(slope.to_slice());
+            let pairs = value.as_slice().iter().zip(slope.as_slice());
             found.extend(pairs.take(x.len()).map(|(value, slope)| [*value, *slope]));
         }
         found

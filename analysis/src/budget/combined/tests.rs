@@ -19,7 +19,7 @@ impl Kernel for Misjudged {
             let largest = covariance.symmetric_eigenvalues().max();
             let [xx, yy, zz, xy, xz, yz] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
             let lanes = [xx, yy, zz, xy, xz, yz].map(|entry| Lanes::<R>::constant(covariance[entry]));
-            let is_longer = |limit| least_minor(&lanes, limit).to_slice()[0] < 0.0;
+            let is_longer = |limit| least_minor(&lanes, limit).as_slice()[0] < 0.0;
             !is_longer(largest * (1.0 - 1e-6)) || is_longer(largest * (1.0 + 1e-6))
         };
         (1..2000).filter(is_misjudged).count()

@@ -138,12 +138,12 @@ impl<R: Register> Scalar for Lanes<R> {
         let u = (self - number(table.first)) * number(table.scale);
         let bucket = Lanes::min(Lanes::max(u - number(0.5), number(-1.0)), number(table.buckets()));
         let rounded = bucket + number(ROUND);
-        let buckets = rounded.to_slice();
+        let buckets = rounded.as_slice();
         if table.starts.is_empty() {
             let coefficients = R::columns(|lane| table.coefficients(LookupTable::bucket_in(buckets[lane])));
             return (u - (rounded - number(ROUND)), coefficients.map(Self));
         }
-        let x = self.to_slice();
+        let x = self.as_slice();
         let mut pieces = [0; WIDEST];
         for ((piece, bucket), x) in pieces.iter_mut().zip(buckets).zip(x) {
             *piece = table.piece_from(LookupTable::bucket_in(*bucket), *x);

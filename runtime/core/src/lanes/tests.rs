@@ -108,7 +108,7 @@ impl Kernel for CheckFunctions {
         for first in 0..all.len() - R::WIDTH {
             let [a, b] = [0, 1].map(|k| Lanes::<R>::from_fn(|lane| all[first + lane][k]));
             for (name, of_lanes, of_numbers) in functions {
-                for (lane, found) in of_lanes(a, b).to_slice().iter().enumerate() {
+                for (lane, found) in of_lanes(a, b).as_slice().iter().enumerate() {
                     let [a, b, _] = all[first + lane];
                     let expected = of_numbers(a, b);
                     let is_near = name == "atan2" && (found - expected).abs() <= 4e-16 * expected.abs();
@@ -138,7 +138,7 @@ impl Kernel for CheckAngles {
             let size = f64::powi(10.0, (8.0 * number(2)) as i32);
             let (y, x) = (number(0) * size, number(1));
             let (y, x) = if index % 3 == 0 { (y / size, x) } else { (y, x) };
-            let found = Scalar::atan2(Lanes::<R>::constant(y), Lanes::<R>::constant(x)).to_slice()[0];
+            let found = Scalar::atan2(Lanes::<R>::constant(y), Lanes::<R>::constant(x)).as_slice()[0];
             let exact = y.atan2(x);
             let place = f64::from_bits(exact.abs().to_bits() + 1) - exact.abs();
             worst = worst.max((found - exact).abs() / place);
