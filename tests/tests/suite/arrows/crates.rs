@@ -54,4 +54,4 @@ pub(crate) const CRATES: &[(&str, &str, &[&str])] = &[
 pub(crate) const CIRCLES: &[&[&str]] = &[];
 
 /// Cycles between folders. Only remove entries from this list.
-pub(crate) const CIRCLES_OF_FOLDERS: &[&str] = &["runtime/core/src: lanes, x86"];
+pub(crate) const CIRCLES_OF_FOLDERS: &[&str] = &[];
