@@ -503,8 +503,8 @@ impl<'d> Section<'d> {
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// Returns the tables of a list `[[key]]`; none without it, or if there are more than `most`, which
-    /// is a mistake.
+    /// Returns the tables of a list `[[key]]`; none without it, or if there are more than `most`,
+    /// which is a mistake.
     pub(crate) fn tables(&self, key: &str, most: usize, help: &str) -> Vec<Item<'d>> {
         let items = self.get(key).and_then(|item| {
             let items = item.array_of_tables(key)?;
@@ -513,8 +513,8 @@ impl<'d> Section<'d> {
         items.unwrap_or_default()
     }
 
-    /// Returns the section of a key; `None` without it, or if it has more than `most` entries, which
-    /// is a mistake.
+    /// Returns the section of a key; `None` without it, or if it has more than `most` entries,
+    /// which is a mistake.
     pub(crate) fn section(&self, key: &str, most: usize, help: &str) -> Option<Self> {
         let item = self.get(key)?;
         let section = item.section()?;

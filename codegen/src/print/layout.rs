@@ -286,6 +286,16 @@ pub(super) fn sizes(array: &Array, description: &Description) -> Vec<String> {
     array.shape.iter().map(|count| count.value(description).to_string()).collect()
 }
 
+/// Describes a value with its unit.
+pub(super) fn described(description: &str, unit: &str) -> String {
+    let unit = if unit.is_empty() { "rad or a pure number" } else { unit };
+    let description = escaped(description);
+    match description.trim_end_matches('.') {
+        "" => format!("Unit: {unit}."),
+        description => format!("{description}; {unit}."),
+    }
+}
+
 /// Escapes links, tags and code blocks.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::new();

@@ -253,8 +253,25 @@ fn views_of_a_camera_on_four_axes_are_planned() {
         Plan { machine: machine.clone(), map: map.clone(), study, choice, model_error: 0.0, seed: None };
     assert_eq!(plan.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}")).rows, 10);
     let at = Places::Samples(12);
-    let job = Simulate { machine, map, at, noise: None, outliers: 0.0, random: false, seed: 1 };
-    assert_eq!(job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}")).observations.len(), 12);
+    let simulate =
+        Simulate { machine: machine.clone(), map, at, noise: None, outliers: 0.0, random: false, seed: 1 };
+    let observations = simulate.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}")).observations;
+    assert_eq!(observations.len(), 12);
+    // Vertical axes show only the sum of the heights of camera and machine: what the map says of
+    // the one is taken from the other. What is left changes by the prior of the stated place alone.
+    let data = Data { file: "views".to_owned(), observations, ..Data::default() };
+    let found = ["15 mm", "25 mm"].map(|height| {
+        let map = Map::parse("map.toml", &text.replace("15 mm", height), &machine.spec).unwrap();
+        let report =
+            Identify { machine: machine.clone(), ..job(&map, data.clone(), None) }.run(&mut ()).unwrap();
+        let note =
+            report.notes.iter().find(|note| note.contains("z of the measured frame on the tool is held"));
+        assert!(note.is_some_and(|note| note.contains("only its sum")), "{:?}", report.notes);
+        (report.placed.stations[0].pose[2][3], report.cross_validation.after.mean)
+    });
+    let [(low, left), (high, left_of_other)] = found;
+    assert!(((high - low).abs() - 10.0).abs() < 0.01, "{low} {high}");
+    assert!((left - left_of_other).abs() < 0.01 * left, "{left} {left_of_other}");
 }
 
 /// Returns the mistake that an identification reports.

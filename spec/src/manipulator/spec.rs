@@ -160,8 +160,8 @@ impl Spec {
         self.sources.get(source)?.enabled.then_some(before)
     }
 
-    /// Iterates over the names of the joint variables, the parameters and the inputs, with the symbol
-    /// and the dimension of each.
+    /// Iterates over the names of the joint variables, the parameters and the inputs, with the
+    /// symbol and the dimension of each.
     pub fn symbols(&self) -> impl Iterator<Item = (&str, Symbol, Dimension)> {
         let dimension = |one: &Variable| one.kind.either(Dimension::NONE, Dimension::LENGTH);
         let variables = self.variables.iter().map(move |one| (&one.name, dimension(one)));

@@ -27,7 +27,7 @@ use self::procedures::CPrinter;
 pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
-use super::layout::{NOT_CLOSED, SourceFile, Writer, escaped};
+use super::layout::{LINE, NOT_CLOSED, SourceFile, Writer, described, escaped, harmless};
 use super::lists::{lists, numbers};
 use super::names::{file_name, function_of, renamed};
 use super::procedure::Printer;
@@ -90,7 +90,7 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real, file: &str) -> Str
     );
     enumeration(&mut writer, "Status codes returned by the functions.", &statuses);
     counts(&mut writer, &upper, routines);
-    indices(&mut writer, &upper, routines);
+    indices(&mut writer, &upper, spec);
     values(&mut writer, spec, routines, real, "extern ", false);
     for signature in routines.signatures().filter(|signature| signature.name != COMPENSATED.name) {
         writer.blank();
@@ -175,12 +175,18 @@ const END: &str = "
 #endif
 ";
 
-fn enumeration(writer: &mut Writer, documentation: &str, entries: &[(String, &str)]) {
+fn enumeration(writer: &mut Writer, documentation: &str, entries: &[(String, impl AsRef<str>)]) {
     writer.lines(&format!("/** {documentation} */"));
     writer.open("enum");
     for (k, (entry, documentation)) in entries.iter().enumerate() {
-        if !documentation.is_empty() {
-            writer.lines(&format!("/** {documentation} */"));
+        let documentation = documentation.as_ref();
+        match documentation.len() < LINE - 12 {
+            true => writer.lines(&format!("/** {} */", harmless(documentation))),
+            false => {
+                writer.lines("/**");
+                writer.documentation(documentation);
+                writer.lines(" */");
+            }
         }
         writer.lines(&format!("{entry}{}", if k + 1 < entries.len() { "," } else { "" }));
     }
@@ -215,17 +221,20 @@ fn counts(writer: &mut Writer, upper: &str, routines: &Routines) {
 }
 
 /// Prints the index of each name in `q`, `s` and `u`.
-fn indices(writer: &mut Writer, upper: &str, routines: &Routines) {
-    let description = &routines.description;
-    let lists: [(&str, Vec<&str>); 3] = [
-        ("q", description.variables.iter().map(|variable| &*variable.name).collect()),
-        ("s", description.parameters.iter().map(|parameter| &*parameter.name).collect()),
-        ("u", description.inputs.iter().map(|input| &*input.name).collect()),
-    ];
+fn indices(writer: &mut Writer, upper: &str, spec: &Spec) {
+    let joints = spec.variables.iter().map(|one| {
+        let frame = format!("Joint of frame {}", spec.frames[one.frame].name);
+        (&one.name, described(&frame, one.kind.either("rad", spec.length.symbol())))
+    });
+    let parameters = spec.parameters.iter().map(|one| (&one.name, described(&one.description, &one.unit)));
+    let inputs = spec.inputs.iter().map(|one| (&one.name, described(&one.description, &one.unit)));
+    let lists: [(&str, Vec<(&String, String)>); 3] =
+        [("q", joints.collect()), ("s", parameters.collect()), ("u", inputs.collect())];
     for (array, names) in lists.into_iter().filter(|(_, names)| !names.is_empty()) {
-        let entry =
-            |(k, name): (usize, &&str)| (format!("{upper}_{}_{name} = {k}", array.to_ascii_uppercase()), "");
-        let entries: Vec<(String, &str)> = names.iter().enumerate().map(entry).collect();
+        let entry = |(k, (name, documentation)): (usize, (&String, String))| {
+            (format!("{upper}_{}_{name} = {k}", array.to_ascii_uppercase()), documentation)
+        };
+        let entries: Vec<(String, String)> = names.into_iter().enumerate().map(entry).collect();
         writer.blank();
         enumeration(writer, &format!("Indices in `{array}`."), &entries);
     }

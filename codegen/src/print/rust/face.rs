@@ -7,7 +7,7 @@ use abbe_spec::{Spec, Variable};
 
 use super::operators::number;
 use crate::chain::{Model, lower_pairs};
-use crate::print::layout::{Writer, array, call, escaped};
+use crate::print::layout::{Writer, array, call, described, escaped};
 
 /// Types that a generated module defines or imports, and types of the prelude.
 const TAKEN: &str = "Box Class Clone Component Copy Debug Default Description Distribution Drop Effect Eq Err \
@@ -169,14 +169,7 @@ struct Field<'s> {
 
 impl<'s> Field<'s> {
     fn new(name: &'s str, description: &str, unit: &str, value: f64) -> Self {
-        let unit = if unit.is_empty() { "rad or a pure number" } else { unit };
-        let description = escaped(description);
-        let description = description.trim_end_matches('.');
-        let documentation = match description.is_empty() {
-            true => format!("Unit: {unit}."),
-            false => format!("{description}; {unit}."),
-        };
-        Self { name, documentation, value }
+        Self { name, documentation: described(description, unit), value }
     }
 }
 

@@ -114,13 +114,25 @@ pub(super) fn argument(writer: &mut Writer, spec: &Spec, description: &Descripti
 
 /// Prints the meaning, order and unit of an array.
 pub(super) fn document(writer: &mut Writer, description: &Description, array: &Array) {
-    let names: Vec<&str> = match array.name {
-        "q" => description.variables.iter().map(|one| &one.name[..]).collect(),
-        "s" => description.parameters.iter().map(|one| &one.name[..]).collect(),
-        "u" => description.inputs.iter().map(|one| &one.name[..]).collect(),
-        "magnitudes" => description.sources.iter().map(|one| &one.name[..]).collect(),
+    let with_unit = |name: &str, unit: &str| match unit {
+        "" => name.to_owned(),
+        unit => format!("{name} ({unit})"),
+    };
+    let length = description.length.symbol();
+    let names: Vec<String> = match array.name {
+        "q" => {
+            let joints = description.variables.iter();
+            joints.map(|one| with_unit(&one.name, one.kind.either("rad", length))).collect()
+        }
+        "s" => description.parameters.iter().map(|one| with_unit(&one.name, &one.unit)).collect(),
+        "u" => description.inputs.iter().map(|one| with_unit(&one.name, &one.unit)).collect(),
+        "magnitudes" => description.sources.iter().map(|one| one.name.to_string()).collect(),
         _ => Vec::new(),
     };
     let order = if names.is_empty() { String::new() } else { format!(" Order: {}.", names.join(", ")) };
-    comment(writer, &format!("{}{order} Unit: {}.", array.documentation, array.unit));
+    let unit = match array.unit {
+        "coherent" => "those given; rad, or a pure number, without one",
+        unit => unit,
+    };
+    comment(writer, &format!("{}{order} Unit: {unit}.", array.documentation));
 }
