@@ -120,6 +120,11 @@ impl Acceptance {
                 parse_value(&document, start + name.len()..end, length, Dimension::LENGTH, "this limit");
             read.limits.extend(value.map(|value| (figure, value)));
         }
+        if read.limits.is_empty() {
+            let mistake = Diagnostic::new(0..text.len(), "there is no limit");
+            document
+                .mistake(mistake.help("write a figure and its limit beside it: `max 0.3 mm, target fitted`"));
+        }
         document.finish(Some(read))
     }
 

@@ -135,6 +135,13 @@ def test_commands():
     assert found.q.shape == (5, 6) and found.left.shape == (5, 6) and before.min() > 0.1
     assert all((reason is None) == (left < 0.001) for reason, left in zip(found.reason, after, strict=True))
     assert pps.compensate(asked[0]).q.shape == (6,)
+    # At its limits of 3 degrees the machine cannot turn on: weighed as 1 m, less is left of both.
+    at_limits = pps.home + np.array([[10, 10, 10, 0.3, turn, turn] for turn in (0.0523, -0.0523)])
+    size = [
+        np.hypot(*(np.linalg.norm(part, axis=1) for part in (left[:, :3], 1e3 * left[:, 3:])))
+        for left in (pps.compensate(at_limits).left, pps.compensate(at_limits, weight="1 m").left)
+    ]
+    assert np.all(size[1] <= size[0] + 1e-9) and np.any(size[1] < size[0] - 1e-8), size
     with pytest.raises(ValueError, match="configuration 3: d1 is commanded"):
         pps.compensate(np.where(np.arange(5)[:, None] == 3, 1e5, asked))
 

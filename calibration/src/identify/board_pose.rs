@@ -18,9 +18,6 @@ use abbe_core::{Pose, displacement};
 /// Corner on the board, and `(x, y)` of its line of sight.
 type Sight = ([f64; 3], [f64; 2]);
 
-/// Variance of corners beside their plane, relative to the largest, up to which they count as flat.
-const FLAT: f64 = 1e-3;
-
 /// Number of iterations for corners in no plane.
 const ITERATIONS: usize = 50;
 
@@ -64,7 +61,7 @@ impl Model<'_> {
         let corners: Vec<([f64; 3], [f64; 2])> = corners.collect();
         let sight = |(corner, pixel): &([f64; 3], [f64; 2])| (*corner, camera.undistorted(*pixel));
         let sights: Vec<Sight> = corners.iter().map(sight).collect();
-        let board = refined(initial(&sights)?, &sights)?;
+        let board = placed(&sights)?;
         let square = |(corner, [u, v]): &([f64; 3], [f64; 2])| {
             let [a, b] = camera.pixel(board.apply(*corner));
             (a - u).powi(2) + (b - v).powi(2)
@@ -84,9 +81,12 @@ fn scaling(points: impl Iterator<Item = [f64; 2]> + Clone) -> Option<([f64; 2], 
     (square > 0.0).then(|| (mean, square.sqrt().recip()))
 }
 
-/// Returns about the pose of the board in the camera; none for fewer than four corners, or if they
-/// are collinear.
-fn initial(sights: &[Sight]) -> Option<Pose> {
+/// Returns the pose of the board in the camera; none for fewer than four corners, or if they are
+/// collinear.
+///
+/// Corners near a plane look nearly alike from a mirrored pose: of all starts, the end that leaves
+/// least counts.
+fn placed(sights: &[Sight]) -> Option<Pose> {
     if sights.len() < 4 {
         return None;
     }
@@ -94,14 +94,29 @@ fn initial(sights: &[Sight]) -> Option<Pose> {
     let mean = sum / sights.len() as f64;
     let about = |corner: &[f64; 3]| Vector3::from(*corner) - mean;
     let scatter = sights.iter().map(|(corner, _)| about(corner) * about(corner).transpose());
-    let svd = svd3(scatter.sum())?;
-    let (axes, variances) = (svd.u?, svd.singular_values);
+    let axes = svd3(scatter.sum())?.u?;
     let [x, y] = [0, 1].map(|k| axes.column(k).into_owned());
     let plane = Pose([x.into(), y.into(), x.cross(&y).into(), mean.into()]).inverse();
-    let placed: Vec<Sight> = sights.iter().map(|(corner, sight)| (plane.apply(*corner), *sight)).collect();
-    let is_flat = variances[2] < FLAT * variances[0];
-    let found = if is_flat { from_homography(&placed) } else { from_perspective(&placed) };
-    Some(found?.then(&plane))
+    let in_plane: Vec<Sight> = sights.iter().map(|(corner, sight)| (plane.apply(*corner), *sight)).collect();
+    let starts = [from_homography(&in_plane), from_perspective(&in_plane)].into_iter().flatten();
+    let starts = starts.flat_map(|start| [start, mirrored(&start)]);
+    let ends = starts.filter_map(|start| refined(start.then(&plane), sights));
+    let left = |board: &Pose| -> f64 {
+        let off = sights.iter().map(|(corner, sight)| {
+            let [x, y, z] = board.apply(*corner);
+            (x / z - sight[0]).powi(2) + (y / z - sight[1]).powi(2)
+        });
+        off.sum()
+    };
+    ends.min_by(|a, b| left(a).total_cmp(&left(b)))
+}
+
+/// Returns the pose from which corners in the plane z = 0 look alike far away: the normal of the
+/// plane is mirrored in the line of sight.
+fn mirrored(&Pose([x, y, z, position]): &Pose) -> Pose {
+    let along = |axis: [f64; 3]| 2.0 * dot(axis, position) / dot(position, position);
+    let less = |axis: [f64; 3]| core::array::from_fn(|k| axis[k] - along(axis) * position[k]);
+    Pose([less(x), less(y), less(z).map(|part: f64| -part), position])
 }
 
 /// Returns the pose of corners in no plane.
@@ -209,3 +224,6 @@ fn refined(mut board: Pose, sights: &[Sight]) -> Option<Pose> {
     }
     board.0.as_flattened().iter().all(|value| value.is_finite()).then_some(board)
 }
+
+#[cfg(test)]
+mod tests;

@@ -19,7 +19,7 @@ fn limits_are_parsed_and_compared() {
     assert_eq!(decided.limits.iter().map(|limit| limit.decision).collect::<Vec<_>>(), [Accepted, Undecided]);
     assert!(!exact.is_met() && exact.decision == Rejected && decided.decision == Undecided);
     assert!(verdict(&Acceptance::default(), 0.0).is_none());
-    for wrong in ["median 1 mm", "mean", "mean 1 deg", ""] {
+    for wrong in ["median 1 mm", "mean", "mean 1 deg", "", "target fitted", "max 1 mm, target"] {
         assert!(Acceptance::read("--accept", wrong, LengthUnit::Millimetre).is_err(), "{wrong}");
     }
 }

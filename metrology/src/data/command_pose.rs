@@ -12,7 +12,7 @@ use super::turn::Turn;
 
 /// Columns of the pose at which the controller has the tool of the nominal machine.
 #[derive(Clone, Debug)]
-pub(super) struct CommandPose {
+pub(crate) struct CommandPose {
     pub(super) position: [Column; 3],
     /// Factor of the position to coherent units.
     pub(super) factor: f64,

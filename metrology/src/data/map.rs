@@ -100,7 +100,7 @@ pub struct Map {
     /// Channel of each variable of the spec.
     pub joints: Vec<Channel>,
     /// Pose of the tool from which the joints follow, in place of their columns.
-    pub(super) command_pose: Option<CommandPose>,
+    pub(crate) command_pose: Option<CommandPose>,
     /// Channel of each input of the spec.
     pub inputs: Vec<Channel>,
     /// Measured quantity.

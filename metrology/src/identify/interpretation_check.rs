@@ -51,7 +51,10 @@ pub(crate) fn check_interpretation(
         return Ok(rms);
     }
     let better = with_other_mount(setup, &rows, here);
-    let better = better.or_else(|| better_interpretation(setup, map, &rows, here));
+    // Joints that follow from poses have no columns to be read otherwise.
+    let has_joints = map.command_pose.is_none();
+    let search = || has_joints.then(|| better_interpretation(setup, map, &rows, here)).flatten();
+    let better = better.or_else(search);
     let Some((there, questions)) = better else { return Ok(rms) };
     let unit = setup.description.length;
     let there = number::length(there.rms, unit);

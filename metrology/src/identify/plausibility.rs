@@ -26,8 +26,8 @@ pub(crate) fn too_large(rms: f64, fitted: Option<f64>, setup: &Setup) -> Option<
             length(left)
         ),
         None => {
-            "no placement of base and tool and no other interpretation (units, signs, column order) fits. \
-                 Check that these are measurements of this machine; `abbe doctor` tries more conventions."
+            "no placement of base and tool fits, and no other interpretation (units, signs, column order) was \
+                 found. Check that these are measurements of this machine; `abbe doctor` tries more conventions."
                 .to_owned()
         }
     };
@@ -177,18 +177,23 @@ pub(super) fn sum_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<String
         _ => false,
     };
     let is_of_base = |k: usize| matches!(model.unknowns[k], Unknown::Base(..));
-    let held = fit.identifiable.redundant.iter().find_map(|(k, acts_as)| {
+    let held = fit.identifiable.redundant.iter().filter_map(|(k, acts_as)| {
         let Unknown::Tool(_, component) = model.unknowns[*k] else { return None };
         let is_sum = is_shift(*k) && acts_as.iter().all(|(other, _)| is_shift(*other));
         let of_base = acts_as.iter().filter(|(other, _)| is_sum && is_of_base(*other));
         let (base, _) = *of_base.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-        Some((component, fit.identifiable.kept.iter().position(|kept| *kept == base)?))
+        let base = fit.identifiable.kept.iter().position(|kept| *kept == base)?;
+        Some((component.name().trim_start_matches("e_"), fit.covariance[(base, base)]))
     });
-    let (component, base) = held?;
-    let axis = component.name().trim_start_matches("e_");
-    let deviation = number::length(fit.covariance[(base, base)].sqrt(), setup.description.length);
+    let (axes, variances): (Vec<_>, Vec<_>) = held.unzip();
+    let largest = variances.into_iter().reduce(f64::max)?;
+    let deviation = number::length(largest.sqrt(), setup.description.length);
+    let (axes, are, sums) = match &axes[..] {
+        [one] => ((*one).to_owned(), "is", "its sum"),
+        all => (all.join(", "), "are", "their sums"),
+    };
     Some(format!(
-        "note: {axis} of the measured frame on the tool is held: these joints show only its sum with the place of the \
-         machine along the same direction, known to {deviation} (1 σ)"
+        "note: {axes} of the measured frame on the tool {are} held: these joints show only {sums} with the place of \
+         the machine along the same direction, known to {deviation} (1 σ)"
     ))
 }

@@ -164,11 +164,11 @@ fn visited_again(rows: &[Observation]) -> Vec<bool> {
 }
 
 /// Returns the mistake of an acceptance whose target is fitted to the rows that it judges.
-fn fitted_target(map: &Map) -> Diagnostics {
+fn fitted_target(map: &Map, limits: &str) -> Diagnostics {
     let message = "the place of a target on the tool is fitted to these rows: errors that it absorbs would not be judged";
     let help = format!(
         "state its position in the map; or judge what is left: `{TARGET} = \"{FITTED}\"` in `[accept]`, or `{}`",
-        option("accept", format!("\"max 0.3 mm, {TARGET} {FITTED}\""))
+        option("accept", format!("\"{limits}, {TARGET} {FITTED}\""))
     );
     mistake::with_help(map.path(), message, help)
 }
@@ -211,7 +211,7 @@ impl Measure {
         let placed = setup.find_places(map, &data)?;
         let is_tool_fitted = placed.is_some() && setup.is_tool_open();
         if is_tool_fitted && !accept.limits.is_empty() && !accept.is_target_fitted {
-            return Err(fitted_target(map));
+            return Err(fitted_target(map, &accept.text(machine.spec.length)));
         }
         let mut evaluated = match map.instruments() {
             Some(all) => Evaluated::of_readings(&setup, all, data)?,

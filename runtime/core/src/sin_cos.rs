@@ -186,9 +186,9 @@ pub(crate) fn each<R: Register, const N: usize>(angles: [f64; N]) -> [(f64, f64)
     for i in (0..N).step_by(2) {
         // Two at a time; the last angle twice if the count is odd.
         let j = (i + 1).min(N - 1);
-        let pair = [angles[i], angles[j]];
-        let (sines, cosines) = near(Lanes::<R>::from_fn(|lane| pair[lane]));
-        let (sines, cosines) = (sines.as_slice(), cosines.as_slice());
+        let pair: Lanes<R> = bytemuck::cast([angles[i], angles[j]]);
+        let (sines, cosines) = near(pair);
+        let [sines, cosines]: [[f64; 2]; 2] = [bytemuck::cast(sines), bytemuck::cast(cosines)];
         results[j] = (sines[1], cosines[1]);
         results[i] = (sines[0], cosines[0]);
     }
