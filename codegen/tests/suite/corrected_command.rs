@@ -260,6 +260,11 @@ fn check_branches<'p>(statements: &'p [Statement], assigned: &mut HashSet<&'p st
             | Statement::Copy { to: name, .. } => vec![name],
             Statement::Call { result, .. } => vec![result.name],
             Statement::Evaluate { results, .. } => results.clone(),
+            // Arrays that begin by elements are declared as zeros.
+            Statement::Set(Value::Element(name, _), _) => {
+                assigned.insert(name);
+                continue;
+            }
             Statement::For { body, .. } => {
                 check_branches(body, assigned, in_branch);
                 continue;

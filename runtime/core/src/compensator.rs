@@ -1,37 +1,50 @@
 //! Compensated joint commands: the `q′` that solves `A_1 E_1(q′) … A_n E_n(q′) · T = X*`.
 //!
-//! With `d = q′ − q`, every iteration solves `min ‖X_real(q′) ⊖ X*‖² + λ ‖d‖²` on the nominal
-//! `J_q`, with the right-hand side `r + J d`, `r = X* ⊖ X_real(q′)`, by the passes of `shortest`.
-//! This yields the exact solution for six independent joints, the solution nearest to `q` for
-//! redundant arms, the least-squares solution for fewer joints, and where `J` loses rank a step
-//! that is bounded and continuous in `q`. The real Jacobian differs from `J` by rotations of the
-//! size of the errors, so each iteration reduces the residual by about the ratio of the errors'
-//! angles to the smallest singular value of `J` (in metres and rad).
+//! With `d = q′ − q`, `r = X* ⊖ X_real(q′)` and `b = r + J d`, every iteration makes [`PASSES`]
+//! passes `d_m = argmin ‖b − J d‖² + λ ‖d − d_{m−1}‖²` from `d_0 = 0`, on the nominal `J_q`, over an
+//! interval of each joint: its limits and the largest correction ([`Cycle`]), in the last pass those
+//! that a cycle permits. This yields the exact solution for six independent joints, the solution
+//! nearest to `q` for redundant arms, the least-squares solution for fewer joints, and where `J`
+//! loses rank a step that is bounded. Each minimum is unique, so that corrections stay continuous
+//! where joints reach their bounds or leave them; `departure` finds it.
 //!
-//! Iterations begin at the correction of the previous cycle, and every joint stays within its
-//! limits and within a bound of that correction ([`Cycle`]): from one cycle to the next no joint
-//! moves further than its command does and that bound, whatever the commands are. `cycle` has
-//! arguments and results.
+//! The real Jacobian differs from `J` by rotations of the size of the errors, so that an iteration
+//! reduces the residual by about the ratio of the errors' angles to the smallest singular value of
+//! `J` (in metres and rad). Where this ratio exceeds 1, full steps go back and forth. A step is
+//! repeated with a quarter of its length unless what is left becomes less or the next step is at
+//! most half as long (Deuflhard: Newton Methods for Nonlinear Problems, 2004, section 3.3).
+//! Iterations begin at the correction of the previous cycle, so that commands do not alternate
+//! between corrections that are about as good. From one cycle to the next no joint moves further
+//! than its command does and its bound, whatever the commands are. `cycle` has arguments and
+//! results.
 //!
-//! Residuals on the exact chain after [`ITERATIONS`], as tested: less than 0.001 mm and 1 µrad
-//! within the limits, for errors of millimetres and milliradians, where that singular value is
-//! above 0.1. For the paper's positioner over its treatment volume, 5.4 mm become less than 10⁻⁵
-//! mm, and a rotation remains only where a joint is at its limit. The cost is fixed, and nothing is
-//! allocated.
+//! Residuals on the exact chain, as tested: less than 0.001 mm and 1 µrad within the limits, for
+//! errors of millimetres and milliradians, where that singular value is above 0.1. For the paper's
+//! positioner over its treatment volume, 5.4 mm become less than 10⁻⁵ mm, and a rotation remains
+//! only where a joint is at its limit. The cost is bounded by [`ITERATIONS`] and [`SOLVES`], and
+//! nothing is allocated.
 
 mod cycle;
+mod departure;
 mod shortest;
 
 pub use self::cycle::{CHANGE, Compensated, Cycle, LARGEST, REACHED, Status, bound};
-pub use self::shortest::{DAMPING, PASSES};
+pub use self::departure::{PASSES, SOLVES};
+pub use self::shortest::DAMPING;
 pub use crate::chain::LEAST_SINE;
 
-use self::shortest::{Departure, add, dot};
+use self::shortest::dot;
 use crate::{Description, Error, Orientation, Pose, Scalar, Variable, deviation};
 
-/// Number of iterations. The real chain is evaluated at most twice more: at the command, and at the
-/// correction of the previous cycle.
-pub const ITERATIONS: usize = 5;
+/// Largest number of iterations. The real chain is evaluated at most twice more: at the command,
+/// and at the correction of the previous cycle.
+pub const ITERATIONS: usize = 6;
+
+/// Length of a repeated step, compared with the step before it.
+pub const SHORTER: f64 = 0.25;
+
+/// Length of the next step, compared with an accepted one, up to which more may be left after it.
+pub const CONTRACTION: f64 = 0.5;
 
 /// Largest step of a converged iteration, in rad and metres.
 pub const REST: f64 = 1e-7;
@@ -78,29 +91,45 @@ where
     let error = |real: &Pose| deviation(Orientation::RotationVector, target, real);
 
     let before = error(&step(start, &mut columns)?);
-    let (mut q, mut after) = (bounds.begin.clone(), before);
-    if q.as_ref() != start.as_ref() {
-        after = error(&step(&q, &mut columns)?);
+    let (mut best, mut left) = (bounds.begin.clone(), before);
+    if best.as_ref() != start.as_ref() {
+        left = error(&step(&best, &mut columns)?);
     }
-    let (mut best, mut left, mut least) = (q.clone(), after, problem.cost(&after));
-    if bounds.contain(start.as_ref()) && problem.cost(&before) < least {
-        (best, left, least) = (start.clone(), before, problem.cost(&before));
-    }
-    let mut moved = 0.0;
+    let mut least = problem.cost(&left);
+    let (mut q, mut from, mut towards) = (best.clone(), best.clone(), best.clone());
+    let (mut after, mut cost, mut solves) = (left, least, 0);
+    let (mut accepted, mut length) = (f64::INFINITY, f64::INFINITY);
+    let mut is_moving = false;
     for _ in 0..ITERATIONS {
-        let from = q.clone();
-        problem.depart(&bounds, q.as_mut(), columns.as_mut(), &after);
-        moved = problem.largest_step(from.as_ref(), q.as_ref());
-        after = error(&step(&q, &mut columns)?);
-        if problem.cost(&after) < least {
-            (best, left, least) = (q.clone(), after, problem.cost(&after));
+        problem.depart(&bounds, &q, &mut towards, columns.as_mut(), &after, &mut solves);
+        let next = problem.largest_step(q.as_ref(), towards.as_ref());
+        if next < CONTRACTION * length || cost < accepted {
+            (from, accepted, length) = (q, cost, next);
+            q = towards.clone();
+        } else {
+            for (j, (q, from)) in q.as_mut().iter_mut().zip(from.as_ref()).enumerate() {
+                *q = bounds.clamped(j, from + (*q - from) * SHORTER);
+            }
         }
+        let moved = problem.largest_step(from.as_ref(), q.as_ref());
+        after = error(&step(&q, &mut columns)?);
+        cost = problem.cost(&after);
+        is_moving = cost < least && moved > REST;
+        if cost < least {
+            (best, left, least) = (q.clone(), after, cost);
+        }
+        if moved <= REST {
+            break;
+        }
+    }
+    if bounds.contain(start.as_ref()) && problem.cost(&before) < least {
+        (best, left) = (start.clone(), before);
     }
     let status = match () {
         () if bounds.command.as_ref() != start.as_ref() => Status::OutsideLimits,
         () if problem.is_reached(&left) => Status::Reached,
         () if bounds.hold(best.as_ref()) => Status::Held,
-        () if moved > REST => Status::NotConverged,
+        () if is_moving => Status::NotConverged,
         () => Status::NotReached,
     };
     let mut correction = best.clone();
@@ -159,49 +188,6 @@ impl<'a> Problem<'a> {
         let steps = from.iter().zip(to).enumerate();
         steps.map(|(j, (from, to))| Scalar::abs(to - from) / self.unit(j)).fold(0.0, f64::max)
     }
-
-    /// Sets `q` to the command + d. Clamps the variable furthest beyond a bound, then solves again
-    /// for the others, until all are within their bounds. Consumes the columns.
-    fn depart<Q: AsRef<[f64]>>(
-        &self,
-        bounds: &Bounds<Q>,
-        q: &mut [f64],
-        columns: &mut [[f64; 6]],
-        after: &[f64; 6],
-    ) {
-        let start = bounds.command.as_ref();
-        // r + J d
-        let mut wanted = self.weighted(*after).map(|row| -row);
-        for (j, column) in columns.iter_mut().enumerate() {
-            *column = self.weighted(column.map(|entry| entry * self.unit(j)));
-            add(&mut wanted, column, (q[j] - start[j]) / self.unit(j));
-        }
-        for _ in 0..=columns.len() {
-            let d = Departure::shortest(columns, &wanted);
-            let mut furthest = (0.0, 0);
-            for (j, column) in columns.iter().enumerate() {
-                // Clamped, or without effect on the tool.
-                if *column == [0.0; 6] {
-                    continue;
-                }
-                q[j] = start[j] + d.component(j, column) * self.unit(j);
-                let beyond = Scalar::abs(q[j] - bounds.clamped(j, q[j])) / self.unit(j);
-                if beyond > furthest.0 {
-                    furthest = (beyond, j);
-                }
-            }
-            let (beyond, j) = furthest;
-            if beyond == 0.0 {
-                break;
-            }
-            q[j] = bounds.clamped(j, q[j]);
-            add(&mut wanted, &columns[j], (start[j] - q[j]) / self.unit(j));
-            columns[j] = [0.0; 6];
-        }
-        for (j, value) in q.iter_mut().enumerate() {
-            *value = bounds.clamped(j, *value);
-        }
-    }
 }
 
 /// Interval of each joint in one cycle: its limits, and the bounds of its correction.
@@ -213,12 +199,16 @@ struct Bounds<Q> {
     begin: Q,
     lower: Q,
     upper: Q,
+    /// Ends without the bound of the change.
+    least: Q,
+    most: Q,
 }
 
 impl<Q: Clone + AsRef<[f64]> + AsMut<[f64]>> Bounds<Q> {
     fn new(variables: &[Variable], start: &Q, cycle: &Cycle<impl AsRef<[f64]>>) -> Self {
         let entry = |list: &[f64], j: usize, missing: f64| list.get(j).copied().unwrap_or(missing);
-        let [mut command, mut begin, mut lower, mut upper] = [(); 4].map(|()| start.clone());
+        let [mut command, mut begin, mut lower, mut upper, mut least, mut most] =
+            [(); 6].map(|()| start.clone());
         for (j, variable) in variables.iter().enumerate() {
             let at = clamped(start.as_ref()[j], variable.limits);
             let last = entry(cycle.last.as_ref(), j, 0.0);
@@ -228,11 +218,13 @@ impl<Q: Clone + AsRef<[f64]> + AsMut<[f64]>> Bounds<Q> {
             let window = [last - change, last + change];
             let within = |correction: f64| clamped(at + clamped(correction, window), variable.limits);
             command.as_mut()[j] = at;
+            least.as_mut()[j] = clamped(at - largest, variable.limits);
+            most.as_mut()[j] = clamped(at + largest, variable.limits);
             lower.as_mut()[j] = within(-largest);
             upper.as_mut()[j] = within(largest);
             begin.as_mut()[j] = clamped(at + last, [lower.as_ref()[j], upper.as_ref()[j]]);
         }
-        Self { command, begin, lower, upper }
+        Self { command, begin, lower, upper, least, most }
     }
 
     fn contain(&self, q: &[f64]) -> bool {

@@ -1,25 +1,31 @@
 //! One cycle of a controller.
 
 use abbe_core::Function;
-use abbe_core::compensator::{ITERATIONS, LEVER, Status};
+use abbe_core::compensator::{CONTRACTION, ITERATIONS, LEVER, SHORTER, Status};
 use abbe_core::function::COMPENSATED;
 
-use super::machine::{Machine, positive};
+use super::departure::Departure;
+use super::machine::{HUGE, Machine, positive};
 use crate::procedure::build::{Array, Real};
 use crate::procedure::{Body, Condition, Procedure, Value, Whole};
 
 /// Variables of the algorithm.
-struct Cycle {
-    axes: Array,
-    command: Array,
-    lower: Array,
-    upper: Array,
+pub(super) struct Cycle {
+    pub(super) axes: Array,
+    pub(super) command: Array,
+    pub(super) lower: Array,
+    pub(super) upper: Array,
     target: Array,
     pose: Array,
-    twists: Array,
+    pub(super) twists: Array,
     /// Configuration of the iteration, and its deviation.
-    present: Array,
-    found: Array,
+    pub(super) present: Array,
+    pub(super) found: Array,
+    /// End of the step from there.
+    pub(super) towards: Array,
+    /// Ends of the intervals without the bound of the change.
+    pub(super) least: Array,
+    pub(super) most: Array,
     /// Best configuration, its deviation and its cost.
     best: Array,
     rest: Array,
@@ -64,30 +70,59 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         b.copy(best, present);
         b.copy(rest, found);
         b.call_real("cost", [cycle.axes, found], smallest);
+        let departure = Departure::new(b, count);
+        let from = b.array("from", count);
+        let [is_accepted, is_rejected, is_moving] =
+            ["is_accepted", "is_rejected", "is_moving"].map(|name| b.flag(name, false));
+        let [moved, next, length, accepted] =
+            ["moved", "next", "length", "accepted"].map(|name| b.real(name));
+        let at_rest = machine.precision.tolerances().rest;
+        b.set(next, 0.0);
+        b.set(square, smallest);
+        b.set(accepted, HUGE);
+        b.set(length, HUGE);
+        b.set(moved, HUGE);
+        b.copy(from, present);
+        b.each("iteration", [0, ITERATIONS], |b, _| {
+            b.when(moved.get().exceeds(at_rest), |b| {
+                departure.write(b, &cycle, units, count);
+                largest_step(b, next, [present, cycle.towards, units], count);
+                b.set_flag(is_accepted, false);
+                b.set_flag(is_rejected, true);
+                let shorter = (length.get() * CONTRACTION).exceeds(next);
+                b.when(shorter.or(accepted.get().exceeds(square)), |b| {
+                    b.set_flag(is_accepted, true);
+                    b.set_flag(is_rejected, false);
+                });
+                b.when(is_accepted.into(), |b| {
+                    b.copy(from, present);
+                    b.set(accepted, square);
+                    b.set(length, next);
+                    b.copy(present, cycle.towards);
+                });
+                b.when(is_rejected.into(), |b| {
+                    b.each("j", [0, count], |b, j| {
+                        let shorter = from.at(j) + (present.at(j) - from.at(j)) * SHORTER;
+                        b.set(present.at(j), shorter.clamped(lower.at(j), upper.at(j)));
+                    });
+                });
+                largest_step(b, moved, [from, present, units], count);
+                cycle.measure(b, present);
+                b.call_real("cost", [cycle.axes, found], square);
+                b.set_flag(is_moving, false);
+                b.when(smallest.get().exceeds(square), |b| {
+                    b.copy(best, present);
+                    b.copy(rest, found);
+                    b.set(smallest, square);
+                    b.when(moved.get().exceeds(at_rest), |b| b.set_flag(is_moving, true));
+                });
+            });
+            b.leave(Value::from(at_rest).is_at_least(moved));
+        });
         b.call_real("cost", [cycle.axes, first], square);
         b.when(Condition::from(is_inside).and(smallest.get().exceeds(square)), |b| {
             b.copy(best, q);
             b.copy(rest, first);
-            b.set(smallest, square);
-        });
-        let (moved, far, former) = (b.real("moved"), b.real("far"), b.array("former", count));
-        b.set(moved, 0.0);
-        b.each("iteration", [0, ITERATIONS], |b, _| {
-            b.copy(former, present);
-            let given = [cycle.axes, command, lower, upper, former, cycle.twists, found];
-            b.call("departure", given, present);
-            b.set(moved, 0.0);
-            b.each("j", [0, count], |b, j| {
-                b.set(far, (present.at(j) - former.at(j)).abs() / units.at(j));
-                b.when(far.get().exceeds(moved), |b| b.set(moved, far));
-            });
-            cycle.measure(b, present);
-            b.call_real("cost", [cycle.axes, found], square);
-            b.when(smallest.get().exceeds(square), |b| {
-                b.copy(best, present);
-                b.copy(rest, found);
-                b.set(smallest, square);
-            });
         });
         b.each("j", [0, count], |b, j| {
             let at_end = lower.at(j).is_at_least(best.at(j)).or(best.at(j).is_at_least(upper.at(j)));
@@ -99,7 +134,7 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         b.copy(after, rest);
         let reached = cycle.distances(b, machine);
         let cases = [
-            (moved.get().exceeds(machine.precision.tolerances().rest), Status::NotConverged),
+            (is_moving.into(), Status::NotConverged),
             (is_held.into(), Status::Held),
             (reached, Status::Reached),
             (is_outside.into(), Status::OutsideLimits),
@@ -114,8 +149,9 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
 
 impl Cycle {
     fn new(b: &mut Body<'_>, count: usize) -> Self {
-        let [command, lower, upper, present, best] =
-            ["command", "lower", "upper", "present", "best"].map(|name| b.array(name, count));
+        let [command, lower, upper, least, most] =
+            ["command", "lower", "upper", "least", "most"].map(|name| b.array(name, count));
+        let [present, towards, best] = ["present", "towards", "best"].map(|name| b.array(name, count));
         let [target, pose] = ["target", "actual"].map(|name| b.array(name, 12));
         let [found, rest] = ["found", "rest"].map(|name| b.array(name, 6));
         let (axes, twists) = (b.array("axes", 9), b.array("twists", 6 * count));
@@ -130,6 +166,9 @@ impl Cycle {
             twists,
             present,
             found,
+            towards,
+            least,
+            most,
             best,
             rest,
             smallest,
@@ -148,14 +187,17 @@ impl Cycle {
         let ends = |end: usize| machine.spec.variables.iter().map(move |one| one.limits[end]);
         let lower_limits = b.constant("lower_limits", &ends(0).collect::<Vec<_>>());
         let upper_limits = b.constant("upper_limits", &ends(1).collect::<Vec<_>>());
-        let [most, widest] = ["most", "widest"].map(|name| b.real(name));
+        let [bound, widest] = ["bound", "widest"].map(|name| b.real(name));
         b.each("j", [0, machine.count], |b, j| {
             let within = |value: Value| value.clamped(lower_limits.at(j), upper_limits.at(j));
-            let window = |correction: Value| correction.clamped(last.at(j) - most, last.at(j) + most);
+            let window = |correction: Value| correction.clamped(last.at(j) - bound, last.at(j) + bound);
             b.set(self.command.at(j), within(q.at(j)));
             b.comment("Bounds that are not positive are 0.");
-            b.set(most, positive(change.at(j)));
+            b.set(bound, positive(change.at(j)));
             b.set(widest, positive(largest.at(j)));
+            for (end, size) in [(self.least, -widest.get()), (self.most, widest.get())] {
+                b.set(end.at(j), within(self.command.at(j) + size));
+            }
             for (end, size) in [(self.lower, -widest.get()), (self.upper, widest.get())] {
                 b.set(end.at(j), self.command.at(j) + window(size));
                 b.set(end.at(j), within(end.at(j)));
@@ -174,4 +216,14 @@ impl Cycle {
         let is_near = Value::from(position).is_at_least(far);
         is_near.and(Value::from(rotation * LEVER).is_at_least(angle))
     }
+}
+
+/// Computes the largest step of a variable, in radians and metres.
+fn largest_step(b: &mut Body<'_>, largest: Real, [from, to, units]: [Array; 3], count: usize) {
+    let far = b.real("far");
+    b.set(largest, 0.0);
+    b.each("j", [0, count], |b, j| {
+        b.set(far, (to.at(j) - from.at(j)).abs() / units.at(j));
+        b.when(far.get().exceeds(largest), |b| b.set(largest, far));
+    });
 }

@@ -2,10 +2,11 @@
 //! number of steps.
 //!
 //! `machine` measures how far the real pose is from the ideal one, `shortest` and `single` solve
-//! for the shortest step (in double and in single precision), which `shortest` takes within the
+//! for the shortest step (in double and in single precision), which `departure` takes within the
 //! bounds, and `cycle` is the algorithm.
 
 mod cycle;
+mod departure;
 mod machine;
 mod shortest;
 mod single;
@@ -29,7 +30,6 @@ pub fn compensated(spec: &Spec, precision: Precision) -> Vec<Procedure> {
         machine::weighted(&machine),
         machine::cost(),
         shortest,
-        shortest::departure(&machine),
         cycle::cycle(&machine),
     ]
 }

@@ -5,18 +5,17 @@
 //! singular value of 0.1, that is 1e-4: squares of such rows, as normal equations have them, would
 //! have no significant digits. The damping lies between the two, as in double precision.
 
-use abbe_core::compensator::PASSES;
-
 use super::machine::Machine;
+use super::shortest::pull;
 use crate::procedure::build::Array;
 use crate::procedure::value::below;
 use crate::procedure::{Body, Procedure};
 
-const BY_COLUMNS: &str = "Shortest step x, by iterated Tikhonov regularization: each pass adds min |J x - b|^2 + damping^2 |x|^2 of what \
-     b has left. QR factorization by Gram-Schmidt.";
+const BY_COLUMNS: &str = "Step y of the free variables, which minimizes |J y - b|^2 + damping^2 |y|^2, and behind it z = (b - J y) / \
+     damping^2. QR factorization by Gram-Schmidt. The columns of held variables are zeros.";
 
-const BY_ROWS: &str = "Shortest step, by iterated Tikhonov regularization: each pass adds J^T (J J^T + damping^2)^-1 of what b has \
-     left. QR factorization by Gram-Schmidt.";
+const BY_ROWS: &str = "Step y = J^T z of the free variables, (J J^T + damping^2) z = b, and z behind it. QR factorization by \
+     Gram-Schmidt. The columns of held variables are zeros.";
 
 /// Shortest step from the columns of J for fewer than six joints, from its rows for six or more.
 pub(super) fn shortest(machine: &Machine<'_>) -> Procedure {
@@ -24,10 +23,9 @@ pub(super) fn shortest(machine: &Machine<'_>) -> Procedure {
     let (by_columns, rank, len) = (count < 6, count.min(6), 6 + count);
     Procedure::new("shortest", if by_columns { BY_COLUMNS } else { BY_ROWS }, |b| {
         let (columns, wanted) = (b.argument("columns", 6 * count), b.argument("wanted", 6));
-        let step = b.result("steps", count);
+        let step = b.result("steps", count + 6);
         let (a, r) = (b.array("a", rank * len), b.array("r", rank * rank));
-        let (rest, x) = (b.array("b", 6), b.array("x", rank));
-        let part = b.real("part");
+        let x = b.array("x", rank);
         b.each("k", [0, rank * len], |b, k| b.set(a.at(k), 0.0));
         b.each("j", [0, rank], |b, j| {
             b.each("i", [0, count.max(6)], |b, i| {
@@ -37,35 +35,29 @@ pub(super) fn shortest(machine: &Machine<'_>) -> Procedure {
             b.set(a.at((len + 1) * j + count.max(6)), damping);
         });
         orthogonalize(b, a, r, [rank, len, count.max(6)]);
-        b.each("j", [0, count], |b, j| b.set(step.at(j), 0.0));
-        b.each("i", [0, 6], |b, i| b.set(rest.at(i), wanted.at(i)));
-        b.each("repetition", [0, PASSES], |b, _| {
-            if by_columns {
-                b.each_down("i", rank, |b, i| {
-                    b.set(x.at(i), a.dot(rest, [0, 6], |k| [len * i + k, k.into()]));
-                    b.each("k", [i + 1, rank.into()], |b, k| {
-                        b.set(x.at(i), x.at(i) - r.at(rank * i + k) * x.at(k));
-                    });
-                    b.set(x.at(i), x.at(i) / r.at((rank + 1) * i));
+        if by_columns {
+            b.each_down("i", rank, |b, i| {
+                b.set(x.at(i), a.dot(wanted, [0, 6], |k| [len * i + k, k.into()]));
+                b.each("k", [i + 1, rank.into()], |b, k| {
+                    b.set(x.at(i), x.at(i) - r.at(rank * i + k) * x.at(k));
                 });
-            } else {
-                b.each("i", [0, rank], |b, i| {
-                    b.set(x.at(i), rest.at(i));
-                    b.each("k", below(i), |b, k| {
-                        b.set(x.at(i), x.at(i) - r.at(rank * k + i) * x.at(k));
-                    });
-                    b.set(x.at(i), x.at(i) / r.at((rank + 1) * i));
-                });
-            }
-            b.each("j", [0, count], |b, j| {
-                match by_columns {
-                    true => b.set(part, x.at(j)),
-                    false => b.set(part, a.dot(x, [0, rank], |k| [len * k + j, k.into()])),
-                }
-                b.set(step.at(j), step.at(j) + part);
-                b.each("i", [0, 6], |b, i| b.set(rest.at(i), rest.at(i) - columns.at(6 * j + i) * part));
+                b.set(x.at(i), x.at(i) / r.at((rank + 1) * i));
             });
-        });
+            b.each("j", [0, count], |b, j| b.set(step.at(j), x.at(j)));
+            pull(b, step, [columns, wanted], damping * damping, count);
+        } else {
+            b.each("i", [0, rank], |b, i| {
+                b.set(x.at(i), wanted.at(i));
+                b.each("k", below(i), |b, k| {
+                    b.set(x.at(i), x.at(i) - r.at(rank * k + i) * x.at(k));
+                });
+                b.set(x.at(i), x.at(i) / r.at((rank + 1) * i));
+            });
+            b.each("j", [0, len], |b, j| {
+                b.set(step.at(j), a.dot(x, [0, rank], |k| [len * k + j, k.into()]));
+            });
+            b.each("i", [0, 6], |b, i| b.set(step.at(i + count), step.at(i + count) / damping));
+        }
     })
 }
 

@@ -1,6 +1,6 @@
 //! Tests of `shortest.rs`.
 
-use super::{Departure, dot, solve};
+use super::{DAMPING, Shortest, dot, solve};
 
 /// Returns arbitrary columns of full rank.
 fn columns<const N: usize>() -> [[f64; 6]; N] {
@@ -8,8 +8,14 @@ fn columns<const N: usize>() -> [[f64; 6]; N] {
 }
 
 fn departure<const N: usize>(columns: &[[f64; 6]; N], b: &[f64; 6]) -> [f64; N] {
-    let d = Departure::shortest(columns, b);
-    core::array::from_fn(|j| d.component(j, &columns[j]))
+    let found = Shortest::new(columns, &[0.0; N], b);
+    let step: [f64; N] = core::array::from_fn(|j| found.component(j, &columns[j]));
+    // z = (b − J y) / λ, however it was found.
+    for (i, pull) in found.pull.iter().enumerate() {
+        let left = b[i] - columns.iter().zip(step).map(|(column, d)| column[i] * d).sum::<f64>();
+        assert!((pull - left / DAMPING).abs() < 1e-12 / DAMPING, "{pull} {}", left / DAMPING);
+    }
+    step
 }
 
 #[test]
@@ -18,7 +24,9 @@ fn cholesky_solves() {
     let matrix: [[f64; 6]; 6] =
         core::array::from_fn(|i| core::array::from_fn(|j| 1.0 / (1.0 + i.abs_diff(j) as f64)));
     let x = solve(matrix, b);
-    matrix.iter().zip(b).for_each(|(row, b)| assert!((dot(row, &x) - b).abs() < 1e-9));
+    for ((row, b), x_i) in matrix.iter().zip(b).zip(x) {
+        assert!((dot(row, &x) + DAMPING * x_i - b).abs() < 1e-12);
+    }
 }
 
 /// Fewer joints: the residual is orthogonal to all columns.
