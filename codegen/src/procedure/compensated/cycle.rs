@@ -74,10 +74,11 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         let from = b.array("from", count);
         let [is_accepted, is_rejected, is_moving] =
             ["is_accepted", "is_rejected", "is_moving"].map(|name| b.flag(name, false));
-        let [moved, next, length, accepted] =
-            ["moved", "next", "length", "accepted"].map(|name| b.real(name));
+        let [moved, next, far, length, accepted] =
+            ["moved", "next", "far", "length", "accepted"].map(|name| b.real(name));
         let at_rest = machine.precision.tolerances().rest;
         b.set(next, 0.0);
+        b.set(far, 0.0);
         b.set(square, smallest);
         b.set(accepted, HUGE);
         b.set(length, HUGE);
