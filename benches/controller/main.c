@@ -1,4 +1,4 @@
-/* On a board without an operating system: the self-test, then the instructions and the stack of a compensated command. */
+/* On a board without an operating system: the self-test, then the instructions and the stack of compensated commands. */
 #include HEADER
 
 extern char stack_top;
@@ -75,13 +75,36 @@ static unsigned used(volatile unsigned char *top)
     return k;
 }
 
+#define COMMANDS 200
+
+static volatile unsigned *const control = (volatile unsigned *)0xE000E010U;
+static volatile unsigned *const reload = (volatile unsigned *)0xE000E014U;
+static volatile unsigned *const value = (volatile unsigned *)0xE000E018U;
+
+/* Runs one cycle, and returns its instructions. */
+static unsigned measured(const REAL *q, REAL *last, int *status)
+{
+    *reload = 0xFFFFFFU;
+    *value = 0U;
+    *control = 5U;
+    const unsigned begun = *value;
+    *status = cycle(q, last);
+    return ((begun - *value) & 0xFFFFFFU) * TICK;
+}
+
+/* Returns a number from 0 to 1, another one at each call. */
+static REAL any(void)
+{
+    static unsigned state = 1U;
+    state = 1664525U * state + 1013904223U;
+    return (REAL)(state >> 8) / (REAL)0x1000000;
+}
+
 int main(void)
 {
-    volatile unsigned *const control = (volatile unsigned *)0xE000E010U;
-    volatile unsigned *const reload = (volatile unsigned *)0xE000E014U;
-    volatile unsigned *const value = (volatile unsigned *)0xE000E018U;
     REAL q[NAME(VARIABLES)];
     REAL last[NAME(VARIABLES)] = { (REAL)0 };
+    int status = 0;
     const int wrong = CALL(self_test)();
     print("self-test ");
     print(wrong == 0 ? "passed" : "FAILED");
@@ -90,17 +113,30 @@ int main(void)
         q[j] = limits[0] + (REAL)(6 + j) / (REAL)20 * (limits[1] - limits[0]);
     }
     volatile unsigned char *const top = paint();
-    *reload = 0xFFFFFFU;
-    *value = 0U;
-    *control = 5U;
-    const unsigned begun = *value;
-    const int status = cycle(q, last);
-    const unsigned ticks = (begun - *value) & 0xFFFFFFU;
-    print(", corrected command: status ");
-    print_number((unsigned)status);
-    print(", instructions ");
-    print_number(ticks * TICK);
-    print(", stack used ");
+    print(", instructions: first cycle ");
+    print_number(measured(q, last, &status));
+    unsigned count = 0U;
+    for (int k = 0; k < 40; k++) {
+        count = measured(q, last, &status);
+    }
+    print(", settled ");
+    print_number(count);
+    print(status == 0 ? "" : " (not reached)");
+    unsigned most = 0U;
+    for (int k = 0; k < COMMANDS; k++) {
+        for (int j = 0; j < NAME(VARIABLES); j++) {
+            const REAL *const limits = CALL(limits)[j];
+            q[j] = limits[0] + any() * (limits[1] - limits[0]);
+            last[j] = ((REAL)2 * any() - (REAL)1) * CALL(largest)[j];
+        }
+        count = measured(q, last, &status);
+        most = count > most ? count : most;
+    }
+    print(", most of ");
+    print_number(COMMANDS);
+    print(" ");
+    print_number(most);
+    print("; stack used ");
     print_number(used(top));
     print(" B");
     print("\n");

@@ -69,7 +69,7 @@ pub fn largest(
     };
     let value = Tape::new(graph, values, &symbols, still);
     let mut slopes = Tape::new(graph, &all, &symbols, still);
-    slopes.slopes_jump = value.has_jumping_slopes();
+    slopes.slopes_jump = value.steps.iter().any(|step| value.is_jumping_slope(step));
     let start = active.iter().zip(&domain).map(|(name, [low, high])| name.start.clamp(*low, *high)).collect();
     let parts: Vec<Node> = std::iter::once(node).chain(magnitude.parts.iter().copied()).collect();
     let parts = Tape::new(graph, &parts, &symbols, still);

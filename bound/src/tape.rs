@@ -97,14 +97,9 @@ impl Tape {
         draft.tape
     }
 
-    /// Returns `true` if the tape contains derivatives that jump.
-    pub(crate) fn has_jumping_slopes(&self) -> bool {
-        self.steps.iter().any(|step| self.is_jumping_slope(step))
-    }
-
     /// Returns `true` for the derivative of an absolute value, or of a table with corners: of first
     /// order unless it is cubic and ends, of higher order always.
-    fn is_jumping_slope(&self, step: &Step) -> bool {
+    pub(crate) fn is_jumping_slope(&self, step: &Step) -> bool {
         match *step {
             Step::Call(function, _) => function == Function::Side,
             Step::Lookup(Lookup { table, order }, _) => {

@@ -108,13 +108,15 @@ fn cycle(description: &Description, index: usize) -> Vec<f64> {
         return [vec![0.0; count], vec![f64::INFINITY; 2 * count], vec![1.0; 3]].concat();
     }
     let each = |bounds| description.variables.iter().map(move |one| bound(description, one.kind, bounds));
-    // A long chain would be held in most of its joints, and rounding would decide in which.
-    let share = |j| if count > 7 { 0.0 } else { halton(index, j) - 0.5 };
+    // A long chain would be held in most of its joints, and the others amplify rounding errors.
+    let is_long = count > 7;
+    let share = |j| if is_long { 0.0 } else { halton(index, j) - 0.5 };
     let last = each(CHANGE).enumerate().map(|(j, most)| most * share(j));
     let rotations = if index % 4 == 1 { [1.0; 3] } else { [1.0, 1.0, 0.0] };
     // Every fourth time, the size of a correction holds it.
-    let largest = each(if index % 8 == 3 { CHANGE } else { LARGEST });
-    let largest = largest.map(|most| if index % 8 == 3 { 0.3 * most } else { most });
+    let is_held = index % 8 == 3 && !is_long;
+    let largest = each(if is_held { CHANGE } else { LARGEST });
+    let largest = largest.map(|most| if is_held { 0.3 * most } else { most });
     last.chain(each(CHANGE)).chain(largest).chain(rotations).collect()
 }
 

@@ -31,12 +31,6 @@ impl Budget {
             Measurand::Orientation => (&self.orientation.sources, &self.orientation.combined),
         }
     }
-
-    /// Returns the configurations at which the tolerance of a measurand is least likely to be met,
-    /// [`least_likely`](Self::least_likely).
-    pub fn least_likely_for(&self, measurand: Measurand) -> &[usize] {
-        &self.least_likely[measurand as usize]
-    }
 }
 
 /// Options of a budget.

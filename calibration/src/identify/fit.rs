@@ -184,7 +184,7 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let mut scale = 1.0;
     if let Some(basis) = basis.filter(|_| !options.scaled.is_empty()) {
         scale = solver.scale_of_prior(&basis, &options.scaled);
-        solver.set_prior(basis.rows(&options.scaled, scale));
+        (solver.prior, solver.linearized) = (basis.rows(&options.scaled, scale), false);
         known = solver.solve(options)?;
     }
     let cost = solver.cost_of_data();

@@ -73,11 +73,6 @@ impl<'a> Solver<'a> {
         (&self.prior * x).norm_squared()
     }
 
-    /// Replaces the rows of the prior.
-    pub(super) fn set_prior(&mut self, prior: DMatrix<f64>) {
-        (self.prior, self.linearized) = (prior, false);
-    }
-
     /// Estimates the standard deviation of a number, in units of its uncertainty, which is prior
     /// information.
     pub(super) fn noise(&self) -> f64 {
@@ -106,7 +101,9 @@ impl<'a> Solver<'a> {
         for _ in 0..most {
             // A millionth of the expected contribution of a single number to the cost.
             let nothing = 1e-6 * self.cost / self.data.len().max(1) as f64;
-            if self.problem.promise() <= nothing {
+            if self.problem.b.rows(0, self.problem.a.ncols().min(self.problem.b.len())).norm_squared()
+                <= nothing
+            {
                 return Ok(true);
             }
             let Some(step) = self.problem.solve(damping) else {

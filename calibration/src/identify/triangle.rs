@@ -76,11 +76,6 @@ impl Problem {
         Self { a: r.columns(0, p).into_owned(), b: r.column(p).into_owned() }
     }
 
-    /// Returns the decrease of `‖b‖²` at the minimum: `‖Qᵀb‖²`, with `A` its own `R`.
-    pub(super) fn promise(&self) -> f64 {
-        self.b.rows(0, self.a.ncols().min(self.b.len())).norm_squared()
-    }
-
     /// Solves `min ‖A x − b‖² + λ ‖D x‖²`, with `D` the lengths of the columns; none if singular.
     pub(super) fn solve(&self, damping: f64) -> Option<DVector<f64>> {
         let (p, rows) = (self.a.ncols(), self.a.nrows());

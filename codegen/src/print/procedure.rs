@@ -48,6 +48,9 @@ pub(super) trait Printer {
     const ADDS_IN_PLACE: bool = false;
     /// `true` if arrays without elements are no arguments.
     const SKIPS_EMPTY: bool = false;
+    /// `true` if many configurations are computed together: those that do not take a branch keep
+    /// what it assigns, which has to have a value before.
+    const IS_MASKED: bool = false;
     /// Memory of the results of functions.
     const RESULTS: Results = Results::Created;
 
@@ -210,9 +213,13 @@ pub(super) trait Printer {
     /// Prints constants, which `list` has if given, and arrays that are filled element by element.
     fn declarations(&mut self, procedure: &Procedure, list: Option<&str>) {
         self.constants(procedure, list);
-        for (name, len) in arrays(&procedure.results).chain(arrays(&procedure.locals)) {
-            if procedure.begins_by_elements(name) {
-                self.zeros(name, len);
+        for Variable { name, kind } in procedure.results.iter().chain(&procedure.locals) {
+            match kind {
+                Kind::Array(len) if Self::IS_MASKED || procedure.begins_by_elements(name) => {
+                    self.zeros(name, *len)
+                }
+                Kind::Real | Kind::Whole if Self::IS_MASKED => self.assign(name, "0", None),
+                _ => {}
             }
         }
     }

@@ -43,7 +43,12 @@ impl<'d> LoopRoutineBuilder<'d> {
 
     /// Returns the stages that write rows by a program at the nominal passive variables.
     pub(super) fn at_once(mut self, program: Program, writes: Vec<ArrayRows>) -> Vec<Stage> {
-        let reads = if reads_passive(&program) { vec![ArrayRows::all(self.nominal())] } else { Vec::new() };
+        let reads = if program.operands().any(|operand| matches!(operand, Operand::Symbol(Symbol::Local(_))))
+        {
+            vec![ArrayRows::all(self.nominal())]
+        } else {
+            Vec::new()
+        };
         self.stages.push(Stage::Block(Block { reads, program, writes, repeated: None }));
         self.stages
     }
@@ -173,9 +178,4 @@ fn rounded_symbol(given: Symbol, locals: &[Rounded], symbol: &dyn Fn(Symbol) -> 
         Symbol::Local(i) => locals.get(i).copied().unwrap_or(Rounded::exact(f64::NAN, unit)),
         given => Rounded::exact(symbol(given), unit),
     }
-}
-
-/// Returns `true` if a program reads passive variables.
-fn reads_passive(program: &Program) -> bool {
-    program.operands().any(|operand| matches!(operand, Operand::Symbol(Symbol::Local(_))))
 }

@@ -2,7 +2,7 @@
 //! `abbe_core::compensator` at every configuration. Variables hold NaN before they are assigned, so
 //! that no call depends on what was there before.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use abbe_codegen::chain::Model;
 use abbe_codegen::procedure::{
@@ -249,39 +249,6 @@ fn check(spec: Spec, count: usize) -> Vec<Status> {
     (0..count).map(one).collect()
 }
 
-/// Fails if a branch assigns what no statement before it assigns: where configurations are computed
-/// together, those that do not take the branch keep the value.
-fn check_branches<'p>(statements: &'p [Statement], assigned: &mut HashSet<&'p str>, in_branch: bool) {
-    for statement in statements {
-        let names: Vec<&str> = match statement {
-            Statement::Set(Value::Name(name), _)
-            | Statement::SetFlag(name, _)
-            | Statement::SetWhole(name, _)
-            | Statement::Copy { to: name, .. } => vec![name],
-            Statement::Call { result, .. } => vec![result.name],
-            Statement::Evaluate { results, .. } => results.clone(),
-            // Arrays that begin by elements are declared as zeros.
-            Statement::Set(Value::Element(name, _), _) => {
-                assigned.insert(name);
-                continue;
-            }
-            Statement::For { body, .. } => {
-                check_branches(body, assigned, in_branch);
-                continue;
-            }
-            Statement::If { body, .. } => {
-                check_branches(body, assigned, true);
-                continue;
-            }
-            _ => continue,
-        };
-        for name in names {
-            let is_new = assigned.insert(name);
-            assert!(!(is_new && in_branch), "{name} has no value before the branch");
-        }
-    }
-}
-
 #[test]
 fn functions_of_numbers_have_the_bits_of_scalars() {
     let machine =
@@ -339,16 +306,6 @@ fn lookups_have_the_bits_of_tables() {
 }
 
 #[test]
-fn branches_assign_what_has_a_value() {
-    for (file, text) in shipped() {
-        let spec = Spec::parse(&file, &text).unwrap();
-        for procedure in [Precision::Double, Precision::Single].map(|p| compensated(&spec, p)).concat() {
-            check_branches(&procedure.body, &mut HashSet::new(), false);
-        }
-    }
-}
-
-#[test]
 fn the_description_has_the_bits_of_the_compensator() {
     let mut statuses = Vec::new();
     for (file, text) in shipped() {
@@ -360,5 +317,32 @@ fn the_description_has_the_bits_of_the_compensator() {
     }
     for status in [Status::Reached, Status::Held, Status::OutsideLimits, Status::NotReached] {
         assert!(statuses.contains(&status), "{status:?} does not occur");
+    }
+}
+
+/// Keywords of C99, JavaScript, Python, Matlab, Rust and Structured Text, in lower case.
+const KEYWORDS: &str = "abstract and any array as assert async at auto await become bool boolean box break by byte case catch char class \
+    classdef const constant continue crate debugger default def del delete do double dyn elif else elseif elsif end enum eval except exit \
+    export extends extern false final finally float fn for from function global goto if impl import in inline instanceof int interface is \
+    lambda let long loop macro match method mod mut namespace new none nonlocal not null of or otherwise override package parfor pass \
+    persistent priv private program protected pub public raise ref register repeat restrict return self short signed sizeof spmd static \
+    struct super switch then this throw to trait true try type typedef typeof union unsafe unsigned unsized until use using var virtual \
+    void volatile where while with xor yield";
+
+/// No name of the corrected command is a keyword of a language, or a name that its files have.
+#[test]
+fn no_name_is_a_keyword() {
+    let helpers = "given least greatest sign side clamped look_up description batch";
+    for (name, text) in shipped() {
+        let spec = Spec::parse(&name, &text).unwrap();
+        for procedure in
+            [Precision::Double, Precision::Single].iter().flat_map(|one| compensated(&spec, *one))
+        {
+            for name in procedure.names() {
+                let is_taken =
+                    |words: &str| words.split_whitespace().any(|word| word.eq_ignore_ascii_case(name));
+                assert!(!is_taken(KEYWORDS) && !is_taken(helpers), "{name} in {}", procedure.name);
+            }
+        }
     }
 }

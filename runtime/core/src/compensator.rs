@@ -1,12 +1,12 @@
 //! Compensated joint commands: the `q′` that solves `A_1 E_1(q′) … A_n E_n(q′) · T = X*`.
 //!
 //! With `d = q′ − q`, `r = X* ⊖ X_real(q′)` and `b = r + J d`, every iteration makes [`PASSES`]
-//! passes `d_m = argmin ‖b − J d‖² + λ ‖d − d_{m−1}‖²` from `d_0 = 0`, on the nominal `J_q`, over an
-//! interval of each joint: its limits and the largest correction ([`Cycle`]), in the last pass those
-//! that a cycle permits. This yields the exact solution for six independent joints, the solution
-//! nearest to `q` for redundant arms, the least-squares solution for fewer joints, and where `J`
-//! loses rank a step that is bounded. Each minimum is unique, so that corrections stay continuous
-//! where joints reach their bounds or leave them; `departure` finds it.
+//! passes `d_m = argmin ‖b − J d‖² + λ ‖d − d_{m−1}‖²` from `d_0 = 0`, on the nominal `J_q`, over
+//! an interval of each joint: its limits and the largest correction ([`Cycle`]), in the last pass
+//! those that a cycle permits. This yields the exact solution for six independent joints, the
+//! solution nearest to `q` for redundant arms, the least-squares solution for fewer joints, and
+//! where `J` loses rank a step that is bounded. Each minimum is unique, so that corrections stay
+//! continuous where joints reach their bounds or leave them; `departure` finds it.
 //!
 //! The real Jacobian differs from `J` by rotations of the size of the errors, so that an iteration
 //! reduces the residual by about the ratio of the errors' angles to the smallest singular value of
@@ -21,7 +21,7 @@
 //! Residuals on the exact chain, as tested: less than 0.001 mm and 1 µrad within the limits, for
 //! errors of millimetres and milliradians, where that singular value is above 0.1. For the paper's
 //! positioner over its treatment volume, 5.4 mm become less than 10⁻⁵ mm, and a rotation remains
-//! only where a joint is at its limit. The cost is bounded by [`ITERATIONS`] and [`SOLVES`], and
+//! only where a joint is at its limit. The cost is bounded by [`ITERATIONS`] and [`solves`], and
 //! nothing is allocated.
 
 mod cycle;
@@ -29,7 +29,7 @@ mod departure;
 mod shortest;
 
 pub use self::cycle::{CHANGE, Compensated, Cycle, LARGEST, REACHED, Status, bound};
-pub use self::departure::{PASSES, SOLVES};
+pub use self::departure::{PASSES, solves};
 pub use self::shortest::DAMPING;
 pub use crate::chain::LEAST_SINE;
 
@@ -97,11 +97,11 @@ where
     }
     let mut least = problem.cost(&left);
     let (mut q, mut from, mut towards) = (best.clone(), best.clone(), best.clone());
-    let (mut after, mut cost, mut solves) = (left, least, 0);
+    let (mut after, mut cost, mut solved) = (left, least, 0);
     let (mut accepted, mut length) = (f64::INFINITY, f64::INFINITY);
     let mut is_moving = false;
     for _ in 0..ITERATIONS {
-        problem.depart(&bounds, &q, &mut towards, columns.as_mut(), &after, &mut solves);
+        problem.depart(&bounds, &q, &mut towards, columns.as_mut(), &after, &mut solved);
         let next = problem.largest_step(q.as_ref(), towards.as_ref());
         if next < CONTRACTION * length || cost < accepted {
             (from, accepted, length) = (q, cost, next);

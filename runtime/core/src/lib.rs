@@ -69,7 +69,7 @@ pub use function::Function;
 
 pub use manipulator::Manipulator;
 #[cfg(feature = "nalgebra")]
-pub use nalgebra_views::{jacobian_view, jacobian_view_dynamic};
+pub use nalgebra_views::jacobian_view;
 pub use pose::Pose;
 pub use quantity::Quantity;
 pub use scalar::{LookupTable, Scalar};

@@ -1,8 +1,6 @@
 //! Plain arrays as nalgebra types: Jacobians as views without copying, poses as isometries.
 
-use nalgebra::{
-    Const, Dyn, Isometry3, Matrix3, MatrixView, Rotation3, SMatrixView, Translation3, U6, UnitQuaternion,
-};
+use nalgebra::{Const, Isometry3, Matrix3, MatrixView, Rotation3, SMatrixView, Translation3, UnitQuaternion};
 
 use crate::Pose;
 
@@ -21,18 +19,6 @@ use crate::Pose;
 /// ```
 pub fn jacobian_view<const N: usize>(columns: &[[f64; 6]; N]) -> SMatrixView<'_, f64, 6, N> {
     MatrixView::from_slice_generic(columns.as_flattened(), Const::<6>, Const::<N>)
-}
-
-/// Returns a Jacobian as a 6 × columns nalgebra view, without copying.
-///
-/// ```
-/// let columns = vec![[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]; 36];
-/// let jacobian = abbe::jacobian_view_dynamic(&columns);
-/// assert_eq!(jacobian.shape(), (6, 36));
-/// assert_eq!((jacobian * jacobian.transpose())[(1, 1)], 36.0);
-/// ```
-pub fn jacobian_view_dynamic(columns: &[[f64; 6]]) -> MatrixView<'_, f64, U6, Dyn> {
-    MatrixView::from_slice_generic(columns.as_flattened(), Const::<6>, Dyn(columns.len()))
 }
 
 impl Pose {

@@ -382,14 +382,14 @@ impl ErrorBounds {
     /// Tightens each bound, in report order.
     fn at_most(self, limits: impl Iterator<Item = Option<f64>>) -> Self {
         let mut bounds = self;
-        for (own, limit) in bounds.all_mut().into_iter().zip(limits) {
+        for (own, limit) in
+            [&mut bounds.norm, &mut bounds.x, &mut bounds.y, &mut bounds.z, &mut bounds.orientation]
+                .into_iter()
+                .zip(limits)
+        {
             own.certified = [own.certified, limit].into_iter().flatten().reduce(f64::min);
         }
         bounds
-    }
-
-    fn all_mut(&mut self) -> [&mut ErrorBound; 5] {
-        [&mut self.norm, &mut self.x, &mut self.y, &mut self.z, &mut self.orientation]
     }
 
     /// Returns the five bounds in report order.

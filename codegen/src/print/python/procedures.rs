@@ -38,6 +38,7 @@ impl Printer for PythonPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if np.all(", "):", ""];
     const LOOP_END: &'static str = "";
     const LEAVE: &'static str = "break";
+    const IS_MASKED: bool = true;
     const NOT: &'static str = "~";
 
     fn writer(&mut self) -> &mut Writer {

@@ -1,37 +1,14 @@
 //! One cycle of a controller.
 
 use abbe_core::Function;
-use abbe_core::compensator::{CONTRACTION, ITERATIONS, LEVER, SHORTER, Status};
+use abbe_core::compensator::{CONTRACTION, ITERATIONS, SHORTER, Status};
 use abbe_core::function::COMPENSATED;
 
-use super::departure::Departure;
-use super::machine::{HUGE, Machine, positive};
+use super::departure::departure;
+use super::machine::{HUGE, Machine};
+use super::variables::Cycle;
 use crate::procedure::build::{Array, Real};
 use crate::procedure::{Body, Condition, Procedure, Value, Whole};
-
-/// Variables of the algorithm.
-pub(super) struct Cycle {
-    pub(super) axes: Array,
-    pub(super) command: Array,
-    pub(super) lower: Array,
-    pub(super) upper: Array,
-    target: Array,
-    pose: Array,
-    pub(super) twists: Array,
-    /// Configuration of the iteration, and its deviation.
-    pub(super) present: Array,
-    pub(super) found: Array,
-    /// End of the step from there.
-    pub(super) towards: Array,
-    /// Ends of the intervals without the bound of the change.
-    pub(super) least: Array,
-    pub(super) most: Array,
-    /// Best configuration, its deviation and its cost.
-    best: Array,
-    rest: Array,
-    smallest: Real,
-    square: Real,
-}
 
 /// The corrected command.
 pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
@@ -70,15 +47,12 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         b.copy(best, present);
         b.copy(rest, found);
         b.call_real("cost", [cycle.axes, found], smallest);
-        let departure = Departure::new(b, count);
-        let from = b.array("from", count);
-        let [is_accepted, is_rejected, is_moving] =
-            ["is_accepted", "is_rejected", "is_moving"].map(|name| b.flag(name, false));
-        let [moved, next, far, length, accepted] =
-            ["moved", "next", "far", "length", "accepted"].map(|name| b.real(name));
+        let from = b.array("origin", count);
+        let [is_rejected, is_moving] = ["is_rejected", "is_moving"].map(|name| b.flag(name, false));
+        let [moved, ahead, length, accepted, solved] =
+            ["moved", "ahead", "length", "accepted", "solved"].map(|name| b.real(name));
         let at_rest = machine.precision.tolerances().rest;
-        b.set(next, 0.0);
-        b.set(far, 0.0);
+        b.set(solved, 0.0);
         b.set(square, smallest);
         b.set(accepted, HUGE);
         b.set(length, HUGE);
@@ -86,19 +60,15 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         b.copy(from, present);
         b.each("iteration", [0, ITERATIONS], |b, _| {
             b.when(moved.get().exceeds(at_rest), |b| {
-                departure.write(b, &cycle, units, count);
-                largest_step(b, next, [present, cycle.towards, units], count);
-                b.set_flag(is_accepted, false);
+                departure(b, &cycle, units, count);
+                largest_step(b, ahead, [present, cycle.towards, units], count);
                 b.set_flag(is_rejected, true);
-                let shorter = (length.get() * CONTRACTION).exceeds(next);
+                let shorter = (length.get() * CONTRACTION).exceeds(ahead);
                 b.when(shorter.or(accepted.get().exceeds(square)), |b| {
-                    b.set_flag(is_accepted, true);
                     b.set_flag(is_rejected, false);
-                });
-                b.when(is_accepted.into(), |b| {
                     b.copy(from, present);
                     b.set(accepted, square);
-                    b.set(length, next);
+                    b.set(length, ahead);
                     b.copy(present, cycle.towards);
                 });
                 b.when(is_rejected.into(), |b| {
@@ -146,77 +116,6 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
             b.when(condition, |b| b.set_whole(status, Whole::Status(case)));
         }
     })
-}
-
-impl Cycle {
-    fn new(b: &mut Body<'_>, count: usize) -> Self {
-        let [command, lower, upper, least, most] =
-            ["command", "lower", "upper", "least", "most"].map(|name| b.array(name, count));
-        let [present, towards, best] = ["present", "towards", "best"].map(|name| b.array(name, count));
-        let [target, pose] = ["target", "actual"].map(|name| b.array(name, 12));
-        let [found, rest] = ["found", "rest"].map(|name| b.array(name, 6));
-        let (axes, twists) = (b.array("axes", 9), b.array("twists", 6 * count));
-        let [smallest, square] = ["smallest", "square"].map(|name| b.real(name));
-        Self {
-            axes,
-            command,
-            lower,
-            upper,
-            target,
-            pose,
-            twists,
-            present,
-            found,
-            towards,
-            least,
-            most,
-            best,
-            rest,
-            smallest,
-            square,
-        }
-    }
-
-    /// Evaluates the real pose at a configuration, and its deviation from the target.
-    fn measure(&self, b: &mut Body<'_>, q: Array) {
-        b.evaluate(Function::CompensatorStep.name(), q, [self.pose, self.twists]);
-        b.call("deviation", [self.target, self.pose], self.found);
-    }
-
-    /// Computes the nearest command within the limits, and the interval of each joint.
-    fn bound(&self, b: &mut Body<'_>, machine: &Machine<'_>, [q, last, change, largest]: [Array; 4]) {
-        let ends = |end: usize| machine.spec.variables.iter().map(move |one| one.limits[end]);
-        let lower_limits = b.constant("lower_limits", &ends(0).collect::<Vec<_>>());
-        let upper_limits = b.constant("upper_limits", &ends(1).collect::<Vec<_>>());
-        let [bound, widest] = ["bound", "widest"].map(|name| b.real(name));
-        b.each("j", [0, machine.count], |b, j| {
-            let within = |value: Value| value.clamped(lower_limits.at(j), upper_limits.at(j));
-            let window = |correction: Value| correction.clamped(last.at(j) - bound, last.at(j) + bound);
-            b.set(self.command.at(j), within(q.at(j)));
-            b.comment("Bounds that are not positive are 0.");
-            b.set(bound, positive(change.at(j)));
-            b.set(widest, positive(largest.at(j)));
-            for (end, size) in [(self.least, -widest.get()), (self.most, widest.get())] {
-                b.set(end.at(j), within(self.command.at(j) + size));
-            }
-            for (end, size) in [(self.lower, -widest.get()), (self.upper, widest.get())] {
-                b.set(end.at(j), self.command.at(j) + window(size));
-                b.set(end.at(j), within(end.at(j)));
-            }
-        });
-    }
-
-    /// Returns the condition that the position and the weighted rotations are reached.
-    fn distances(&self, b: &mut Body<'_>, machine: &Machine<'_>) -> Condition {
-        let weights = b.array("weights", 6);
-        let [far, angle] = ["far", "angle"].map(|name| b.real(name));
-        b.call("weighted", [self.axes, self.rest], weights);
-        b.set(far, weights.dot(weights, [0, 3], |k| [k, k]).sqrt());
-        b.set(angle, weights.dot(weights, [3, 6], |k| [k, k]).sqrt());
-        let [position, rotation] = machine.precision.tolerances().reached;
-        let is_near = Value::from(position).is_at_least(far);
-        is_near.and(Value::from(rotation * LEVER).is_at_least(angle))
-    }
 }
 
 /// Computes the largest step of a variable, in radians and metres.

@@ -1,15 +1,15 @@
-//! The corrected command: the algorithm of [`abbe_core::compensator`] as procedures, by its fixed
-//! number of steps.
+//! The corrected command: the algorithm of [`abbe_core::compensator`] as procedures.
 //!
 //! `machine` measures how far the real pose is from the ideal one, `shortest` and `single` solve
 //! for the shortest step (in double and in single precision), which `departure` takes within the
-//! bounds, and `cycle` is the algorithm.
+//! bounds, `variables` has the intervals, and `cycle` is the algorithm.
 
 mod cycle;
 mod departure;
 mod machine;
 mod shortest;
 mod single;
+mod variables;
 
 use abbe_spec::Spec;
 

@@ -6,7 +6,6 @@
 //! have no significant digits. The damping lies between the two, as in double precision.
 
 use super::machine::Machine;
-use super::shortest::pull;
 use crate::procedure::build::Array;
 use crate::procedure::value::below;
 use crate::procedure::{Body, Procedure};
@@ -44,7 +43,13 @@ pub(super) fn shortest(machine: &Machine<'_>) -> Procedure {
                 b.set(x.at(i), x.at(i) / r.at((rank + 1) * i));
             });
             b.each("j", [0, count], |b, j| b.set(step.at(j), x.at(j)));
-            pull(b, step, [columns, wanted], damping * damping, count);
+            b.each("i", [0, 6], |b, i| b.set(step.at(i + count), wanted.at(i)));
+            b.each("j", [0, count], |b, j| {
+                b.each("i", [0, 6], |b, i| {
+                    b.set(step.at(i + count), step.at(i + count) - columns.at(6 * j + i) * step.at(j));
+                });
+            });
+            b.each("i", [0, 6], |b, i| b.set(step.at(i + count), step.at(i + count) / (damping * damping)));
         } else {
             b.each("i", [0, rank], |b, i| {
                 b.set(x.at(i), wanted.at(i));

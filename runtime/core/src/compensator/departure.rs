@@ -8,23 +8,26 @@
 //! Passes about 0 forget what the cycle before had, so that the bound of a change holds in the last
 //! one only.
 //!
-//! Within bounds, a pass minimizes a strictly convex function over a box (`l ≤ d ≤ u`). With
-//! `z = (b − J d) / λ` its minimum has `d_j = clamp(c_j + J_jᵀ z)`, where c is the result of the pass
+//! Within bounds, a pass minimizes a strictly convex function over a box (`l ≤ d ≤ u`). Its minimum
+//! has `d_j = clamp(c_j + J_jᵀ z)` with `z = (b − J d) / λ`, where c is the result of the pass
 //! before. Joints are free or held at an end, as Stark and Parker do (Bounded-variable least
-//! squares, Computational Statistics 10, 1995): d moves towards the minimum of the free joints, up to
-//! the first end that one of them meets, which is then held. At that minimum the held joint is
-//! released whose `clamp(c_j + J_jᵀ z)` is furthest from its end. Every move reduces the function, so
-//! that no set of held joints comes twice.
+//! squares, Computational Statistics 10, 1995): d moves towards the minimum of the free joints, up
+//! to the first end that one of them meets, which is then held. At that minimum, of the held joints
+//! whose `clamp(c_j + J_jᵀ z)` is elsewhere, the one whose `c_j + J_jᵀ z` is furthest is released.
+//! Every move reduces the function, so that no set of held joints comes twice.
 
-use super::shortest::{Shortest, add, dot};
+use super::shortest::{add, dot, pull};
 use super::{Bounds, Problem, clamped};
 use crate::Scalar;
 
 /// Number of passes m.
 pub const PASSES: usize = 4;
 
-/// Largest number of systems of equations that are solved in a cycle.
-pub const SOLVES: usize = 64;
+/// Returns the largest number of systems of six equations that are solved in a cycle: each joint
+/// may meet its bounds and leave them several times.
+pub const fn solves(variables: usize) -> usize {
+    8 * (variables + 1)
+}
 
 impl Problem<'_> {
     /// Sets `towards` to the command + d, from `q`, where `left` is left. Weights the columns.
@@ -35,7 +38,7 @@ impl Problem<'_> {
         towards: &mut Q,
         columns: &mut [[f64; 6]],
         left: &[f64; 6],
-        solves: &mut usize,
+        solved: &mut usize,
     ) {
         let mut wanted = self.weighted(*left).map(|row| -row);
         let [mut d, mut center, mut goal, mut held, mut lower, mut upper] = [(); 6].map(|()| q.clone());
@@ -51,16 +54,16 @@ impl Problem<'_> {
             (d[j], held[j]) = within(d[j], [lower[j], upper[j]]);
         }
         let mut passes = 0;
-        while passes < PASSES && *solves < SOLVES {
-            *solves += 1;
+        while passes < PASSES && *solved < solves(d.len()) {
+            *solved += 1;
             let mut b = wanted;
             for (j, column) in columns.iter().enumerate() {
                 add(&mut b, column, if held[j] > 0.0 { -d[j] } else { -center[j] });
             }
-            let shortest = Shortest::new(columns, held, &b);
+            let pull = pull(columns, held, &b);
             let (mut share, mut first) = (1.0, None);
             for (j, column) in columns.iter().enumerate() {
-                goal[j] = center[j] + shortest.component(j, column);
+                goal[j] = center[j] + dot(column, &pull);
                 let end = clamped(goal[j], [lower[j], upper[j]]);
                 if held[j] > 0.0 || end == goal[j] {
                     continue;
@@ -78,10 +81,9 @@ impl Problem<'_> {
                 continue;
             }
             let (mut furthest, mut released) = (0.0, None);
-            for (j, column) in columns.iter().enumerate().filter(|(j, _)| held[*j] > 0.0) {
-                let free = clamped(center[j] + dot(column, &shortest.pull), [lower[j], upper[j]]);
-                let far = Scalar::abs(free - d[j]);
-                if far > furthest {
+            for j in (0..d.len()).filter(|j| held[*j] > 0.0) {
+                let far = Scalar::abs(goal[j] - d[j]);
+                if clamped(goal[j], [lower[j], upper[j]]) != d[j] && far > furthest {
                     (furthest, released) = (far, Some(j));
                 }
             }
@@ -112,6 +114,5 @@ impl Problem<'_> {
 
 /// Returns the nearest number of an interval, and 1 at its ends or beyond them, else 0.
 fn within(number: f64, [lower, upper]: [f64; 2]) -> (f64, f64) {
-    let is_inside = lower < number && number < upper;
-    (clamped(number, [lower, upper]), if is_inside { 0.0 } else { 1.0 })
+    (clamped(number, [lower, upper]), if lower < number && number < upper { 0.0 } else { 1.0 })
 }

@@ -1,48 +1,23 @@
 //! Shortest step of the free joints towards a target: one pass of Tikhonov regularization.
 //!
-//! `y = (JᵀJ + λ)⁻¹ Jᵀ b = Jᵀ z` with `z = (J Jᵀ + λ)⁻¹ b = (b − J y) / λ`.
+//! `y = Jᵀ z` with `z = (J Jᵀ + λ)⁻¹ b = (b − J y) / λ`.
 
 use crate::Scalar;
 
 /// λ, in rad² and m², where one rad of rotation weighs [`LEVER`](super::LEVER).
 pub const DAMPING: f64 = 1e-9;
 
-/// Shortest step, from the smaller of the matrices `JᵀJ` and `J Jᵀ`.
-pub(super) struct Shortest {
-    /// `y`, for fewer than six joints. For more, `Jᵀ z` has no rounding errors in the null space of
-    /// `J`, where damping alone would bound them.
-    step: Option<[f64; 6]>,
-    /// `z`.
-    pub(super) pull: [f64; 6],
-}
-
-impl Shortest {
-    /// Solves for `y` and `z`; the columns of held joints count as zeros.
-    pub(super) fn new(columns: &[[f64; 6]], held: &[f64], b: &[f64; 6]) -> Self {
-        let free = |j: usize| if held[j] > 0.0 { [0.0; 6] } else { columns[j] };
-        let mut matrix = [[0.0; 6]; 6];
-        if columns.len() >= 6 {
-            for column in (0..columns.len()).map(free) {
-                for (row, entry) in matrix.iter_mut().zip(column) {
-                    add(row, &column, entry);
-                }
-            }
-            return Self { step: None, pull: solve(matrix, *b) };
+/// Returns `z`; the columns of held joints count as zeros.
+///
+/// `Jᵀ z` has no rounding errors in the null space of `J`, where damping alone would bound them.
+pub(super) fn pull(columns: &[[f64; 6]], held: &[f64], b: &[f64; 6]) -> [f64; 6] {
+    let mut matrix = [[0.0; 6]; 6];
+    for (column, _) in columns.iter().zip(held).filter(|(_, held)| **held <= 0.0) {
+        for (row, entry) in matrix.iter_mut().zip(column) {
+            add(row, column, *entry);
         }
-        let mut projected = [0.0; 6];
-        for i in 0..columns.len() {
-            projected[i] = dot(&free(i), b);
-            (0..=i).for_each(|j| matrix[i][j] = dot(&free(i), &free(j)));
-        }
-        let (step, mut rest) = (solve(matrix, projected), *b);
-        (0..columns.len()).for_each(|j| add(&mut rest, &free(j), -step[j]));
-        Self { step: Some(step), pull: rest.map(|entry| entry / DAMPING) }
     }
-
-    /// Returns the step of a free joint.
-    pub(super) fn component(&self, j: usize, column: &[f64; 6]) -> f64 {
-        self.step.map_or_else(|| dot(column, &self.pull), |step| step[j])
-    }
+    solve(matrix, *b)
 }
 
 /// Returns `x` with `(M + λ) x = b` for M positive semidefinite, by the Cholesky decomposition

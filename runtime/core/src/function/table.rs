@@ -390,6 +390,7 @@ pub const COMPENSATED: super::Signature = signature!(
     compensated(q, s, u, last, change, largest, rotations) -> (corrected, correction, before, after):
         "Corrected commands, at which the real tool has the pose of the ideal tool at `q`, for one cycle of a controller. Each \
          is within the limits of its variable, and within `change` of the command corrected by `last`: from one cycle to the \
-         next no variable moves further than its command and `change`. The number of steps is fixed. If the pose cannot be \
-         reached, the position has priority over the orientation."
+         next no variable moves further than its command and `change`. At most 6 steps are made, which solve at most 8 \
+         systems of equations for each variable and 8 more. If the pose cannot be reached, the position has priority over \
+         the orientation."
 );

@@ -225,7 +225,7 @@ impl JudgedErrors {
         let is_bounded =
             sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
         let radius = combined.radius;
-        let listed = budget.least_likely_for(measurand).iter().map(|index| Some(*index));
+        let listed = budget.least_likely[measurand as usize].iter().map(|index| Some(*index));
         let mut candidates = Vec::new();
         for index in
             [radius.configuration].into_iter().chain(listed.filter(|index| *index != radius.configuration))

@@ -275,7 +275,7 @@ fn no_correction_changes_by_more_than_its_bound() {
 /// stretched elbow cannot reach the pose. A thorough run has 2,000 paths.
 #[test]
 fn corrections_do_not_go_back_and_forth() {
-    let paths = if thorough() { 105 } else { 4 };
+    let paths = if thorough() { 84 } else { 4 };
     let modes = |name: &str| match name {
         "pps" | "scara" => vec![[1.0; 3], [0.0; 3]],
         "five_axis" => vec![[1.0, 1.0, 0.0], [1.0; 3]],

@@ -29,7 +29,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("d1 := q[0];", "d1 := pps_root(d2);", "expected ,"),
     ("d1 := q[0];", "d1 := pps_root(d2, TRUE);", "TRUE is not declared"),
     ("d1 := q[0];", "d1 := pps_root(d2, d3);", "FAULT must be a variable of Bool"),
-    ("far := ABS(q[j]", "far := pps_weighted(q[j]", "PPS_WEIGHTED is no function"),
+    ("far := ABS(towards[j]", "far := pps_weighted(q[j]", "PPS_WEIGHTED is no function"),
     ("d1 := q[0];", "IF d1 THEN d1 := d2; END_IF;", "expected Bool, found Lreal"),
     ("d1 := q[0];", "IF fault THEN d1 := d2;", "expected END_IF"),
     ("d1 := q[0];", "FOR d1 := 0 TO 1 DO fault := TRUE; END_FOR;", "a counter is a local variable of DINT"),
