@@ -216,7 +216,7 @@ pub(super) trait Printer {
         for Variable { name, kind } in procedure.results.iter().chain(&procedure.locals) {
             match kind {
                 Kind::Array(len) if Self::IS_MASKED || procedure.begins_by_elements(name) => {
-                    self.zeros(name, *len)
+                    self.zeros(name, *len);
                 }
                 Kind::Real | Kind::Whole if Self::IS_MASKED => self.assign(name, "0", None),
                 _ => {}
