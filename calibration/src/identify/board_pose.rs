@@ -1,25 +1,24 @@
 //! Pose of the measured frame from the pixels of one view of a board.
 //!
-//! With `(x, y)` the undistorted corners and `(X, Y)` their coordinates in a plane of the board,
-//! `(x, y, 1) ∝ H (X, Y, 1)` and `H ∝ [r_1 r_2 t]`: Zhang, *A flexible new technique for camera
-//! calibration*, 2000. Corners that lie in no plane give `x (1 + ε) = (r_x P + t_x) / t_z` with
-//! `ε = r_z P / t_z`, and with y alike: DeMenthon and Davis, *Model-based object pose in 25 lines of
-//! code*, 1995. Gauss-Newton steps then minimize the distances in the image plane.
+//! Far away, the image of corners about their mean is a projection along the line of sight: it has
+//! two poses (DeMenthon and Davis, *Model-based object pose in 25 lines of code*, 1995).
+//! Gauss-Newton steps from both, and from those that mirror what they find, minimize the distances
+//! in the image.
 
 use std::borrow::Cow;
 
-use nalgebra::{Matrix3, Matrix4, Matrix6, SMatrix, Vector3, Vector4, Vector6};
+use nalgebra::{Matrix6, Vector2, Vector3, Vector6};
 
 use super::{Measurement, Model, Observation};
-use abbe_analysis::decompose::{svd3, symmetric_eigen};
+use abbe_analysis::decompose::svd3;
 use abbe_analysis::sampling::vectors::{cross, dot};
 use abbe_core::{Pose, displacement};
 
 /// Corner on the board, and `(x, y)` of its line of sight.
 type Sight = ([f64; 3], [f64; 2]);
 
-/// Number of iterations for corners in no plane.
-const ITERATIONS: usize = 50;
+/// Variance of corners beside their line, relative to the one along it, below which they have none.
+const COLLINEAR: f64 = 1e-9;
 
 /// Board in one view, fitted without the machine.
 #[derive(Clone, Debug)]
@@ -54,11 +53,11 @@ impl Model<'_> {
             return None;
         };
         let corners = readings.chunks_exact(2).zip(self.observables.chunks_exact(2));
-        let corners = corners.filter_map(|(pixel, corner)| match (pixel, corner[0].corner) {
+        let seen = corners.filter_map(|(pixel, corner)| match (pixel, corner[0].corner) {
             ([Some(u), Some(v)], corner) => Some((corner, [*u, *v])),
             _ => None,
         });
-        let corners: Vec<([f64; 3], [f64; 2])> = corners.collect();
+        let corners: Vec<([f64; 3], [f64; 2])> = seen.collect();
         let sight = |(corner, pixel): &([f64; 3], [f64; 2])| (*corner, camera.undistorted(*pixel));
         let sights: Vec<Sight> = corners.iter().map(sight).collect();
         let board = placed(&sights)?;
@@ -67,18 +66,13 @@ impl Model<'_> {
             (a - u).powi(2) + (b - v).powi(2)
         };
         let square = corners.iter().map(square).sum::<f64>() / corners.len() as f64;
-        let (_, size) = scaling(corners.iter().map(|(_, pixel)| *pixel))?;
+        let mean =
+            [0, 1].map(|k| corners.iter().map(|(_, pixel)| pixel[k]).sum::<f64>() / corners.len() as f64);
+        let spread = |(_, [u, v]): &([f64; 3], [f64; 2])| (u - mean[0]).powi(2) + (v - mean[1]).powi(2);
+        let spread = corners.iter().map(spread).sum::<f64>() / corners.len() as f64;
         let pose = if camera.is_on_tool { board.inverse() } else { board };
-        Some(BoardView { pose, rms: square.sqrt(), extent: size.recip() })
+        Some(BoardView { pose, rms: square.sqrt(), extent: spread.sqrt() })
     }
-}
-
-/// Returns the mean of points, and the reciprocal of their root mean square distance from it.
-fn scaling(points: impl Iterator<Item = [f64; 2]> + Clone) -> Option<([f64; 2], f64)> {
-    let n = points.clone().count() as f64;
-    let mean = [0, 1].map(|k| points.clone().map(|point| point[k]).sum::<f64>() / n);
-    let square = points.map(|[x, y]| (x - mean[0]).powi(2) + (y - mean[1]).powi(2)).sum::<f64>() / n;
-    (square > 0.0).then(|| (mean, square.sqrt().recip()))
 }
 
 /// Returns the pose of the board in the camera; none for fewer than four corners, or if they are
@@ -94,21 +88,18 @@ fn placed(sights: &[Sight]) -> Option<Pose> {
     let mean = sum / sights.len() as f64;
     let about = |corner: &[f64; 3]| Vector3::from(*corner) - mean;
     let scatter = sights.iter().map(|(corner, _)| about(corner) * about(corner).transpose());
-    let axes = svd3(scatter.sum())?.u?;
+    let svd = svd3(scatter.sum())?;
+    let (axes, variances) = (svd.u?, svd.singular_values);
+    if variances[1] < COLLINEAR * variances[0] {
+        return None;
+    }
     let [x, y] = [0, 1].map(|k| axes.column(k).into_owned());
     let plane = Pose([x.into(), y.into(), x.cross(&y).into(), mean.into()]).inverse();
     let in_plane: Vec<Sight> = sights.iter().map(|(corner, sight)| (plane.apply(*corner), *sight)).collect();
-    let starts = [from_homography(&in_plane), from_perspective(&in_plane)].into_iter().flatten();
-    let starts = starts.flat_map(|start| [start, mirrored(&start)]);
-    let ends = starts.filter_map(|start| refined(start.then(&plane), sights));
-    let left = |board: &Pose| -> f64 {
-        let off = sights.iter().map(|(corner, sight)| {
-            let [x, y, z] = board.apply(*corner);
-            (x / z - sight[0]).powi(2) + (y / z - sight[1]).powi(2)
-        });
-        off.sum()
-    };
-    ends.min_by(|a, b| left(a).total_cmp(&left(b)))
+    let refine = |start: &Pose| refined(start.then(&plane), sights);
+    let ends: Vec<(f64, Pose)> = from_far_away(&in_plane)?.iter().filter_map(refine).collect();
+    let others = ends.iter().filter_map(|(_, end)| refine(&mirrored(&end.then(&plane.inverse()))));
+    ends.iter().copied().chain(others).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, board)| board)
 }
 
 /// Returns the pose from which corners in the plane z = 0 look alike far away: the normal of the
@@ -119,73 +110,39 @@ fn mirrored(&Pose([x, y, z, position]): &Pose) -> Pose {
     Pose([less(x), less(y), less(z).map(|part: f64| -part), position])
 }
 
-/// Returns the pose of corners in no plane.
-fn from_perspective(sights: &[Sight]) -> Option<Pose> {
-    let point = |corner: &[f64; 3]| Vector4::new(corner[0], corner[1], corner[2], 1.0);
-    let normal: Matrix4<f64> =
-        sights.iter().map(|(corner, _)| point(corner) * point(corner).transpose()).sum();
-    let inverse = normal.try_inverse()?;
-    let (mut toward, mut found) = (Vector4::new(0.0, 0.0, 0.0, 1.0), None);
-    for _ in 0..ITERATIONS {
-        let row = |k: usize| {
-            let scaled = sights.iter().map(|(corner, sight)| {
-                let point = point(corner);
-                point * (sight[k] * toward.dot(&point))
-            });
-            inverse * scaled.sum::<Vector4<f64>>()
-        };
-        let [across, down] = [0, 1].map(row);
-        let [x, y]: [Vector3<f64>; 2] = [across.xyz(), down.xyz()];
-        let depth = (x.norm() * y.norm()).sqrt().recip();
-        let svd = svd3(Matrix3::from_columns(&[x * depth, y * depth, x.cross(&y) * (depth * depth)]))?;
-        let rotation = (svd.u? * svd.v_t?).transpose();
-        let [a, b, c] = [0, 1, 2].map(|k| rotation.column(k).into());
-        found = Some(Pose([a, b, c, [across[3] * depth, down[3] * depth, depth]]));
-        let along = rotation.row(2) / depth;
-        toward = Vector4::new(along[0], along[1], along[2], 1.0);
-    }
-    found
+/// Returns the two poses whose images far away are those of the corners; none if these are one
+/// point of the image.
+///
+/// The origin is the mean of the corners, the axes are the principal ones. With the change `a_k` of
+/// the image along the axis k and the size s of the image, `(a_1, c_1)` and `(a_2, c_2)` are
+/// orthogonal and have the length s: `c_1 c_2 = −a_1 a_2`, `c_2² − c_1² = a_1² − a_2²`.
+fn from_far_away(sights: &[Sight]) -> Option<[Pose; 2]> {
+    let n = sights.len() as f64;
+    let mean = [0, 1].map(|i| sights.iter().map(|(_, sight)| sight[i]).sum::<f64>() / n);
+    let change = |k: usize, i: usize| {
+        let parts =
+            sights.iter().map(|(corner, sight)| (corner[k] * (sight[i] - mean[i]), corner[k] * corner[k]));
+        let (sum, squares) = parts.fold((0.0, 0.0), |sums, part| (sums.0 + part.0, sums.1 + part.1));
+        sum / squares
+    };
+    let [a, b] = [0, 1].map(|k| Vector2::new(change(k, 0), change(k, 1)));
+    let (product, difference): (f64, f64) = (a.dot(&b), a.norm_squared() - b.norm_squared());
+    let longer = (0.5 * (difference.abs() + difference.hypot(2.0 * product))).sqrt();
+    let shorter = if longer > 0.0 { -product / longer } else { 0.0 };
+    let (c, d) = if difference > 0.0 { (shorter, longer) } else { (longer, shorter) };
+    let depth = a.push(c).norm().recip();
+    let pose = |side: f64| {
+        let [x, y] = [a.push(side * c) * depth, b.push(side * d) * depth];
+        Pose([x.into(), y.into(), x.cross(&y).into(), [mean[0] * depth, mean[1] * depth, depth]])
+    };
+    depth.is_finite().then(|| [pose(1.0), pose(-1.0)])
 }
 
-/// Returns the pose of corners in the plane z = 0 from their homography; none if they are
-/// collinear.
-fn from_homography(sights: &[Sight]) -> Option<Pose> {
-    let (from, a) = scaling(sights.iter().map(|([x, y, _], _)| [*x, *y]))?;
-    let (to, b) = scaling(sights.iter().map(|(_, sight)| *sight))?;
-    let mut normal = SMatrix::<f64, 9, 9>::zeros();
-    for ([x, y, _], [u, v]) in sights {
-        let (x, y) = (a * (x - from[0]), a * (y - from[1]));
-        let (u, v) = (b * (u - to[0]), b * (v - to[1]));
-        for row in
-            [[x, y, 1.0, 0.0, 0.0, 0.0, -u * x, -u * y, -u], [0.0, 0.0, 0.0, x, y, 1.0, -v * x, -v * y, -v]]
-        {
-            let row = SMatrix::<f64, 9, 1>::from(row);
-            normal += row * row.transpose();
-        }
-    }
-    let eigen = symmetric_eigen(normal)?;
-    let mut order: Vec<usize> = (0..9).collect();
-    order.sort_by(|i, j| eigen.eigenvalues[*i].total_cmp(&eigen.eigenvalues[*j]));
-    if eigen.eigenvalues[order[1]] < 1e-9 * eigen.eigenvalues[order[8]] {
-        return None;
-    }
-    let h = Matrix3::from_row_slice(eigen.eigenvectors.column(order[0]).as_slice());
-    // Back to the coordinates before scaling: H = S_to⁻¹ h S_from.
-    let scale = |k: f64, [x, y]: [f64; 2]| Matrix3::new(k, 0.0, -k * x, 0.0, k, -k * y, 0.0, 0.0, 1.0);
-    let h = scale(b, to).try_inverse()? * h * scale(a, from);
-    let size = (h.column(0).norm() * h.column(1).norm()).sqrt();
-    // The board is in front of the camera.
-    let h = h / if h[(2, 2)] < 0.0 { -size } else { size };
-    let (first, second): (Vector3<f64>, Vector3<f64>) = (h.column(0).into(), h.column(1).into());
-    let svd = svd3(Matrix3::from_columns(&[first, second, first.cross(&second)]))?;
-    let rotation = svd.u? * svd.v_t?;
-    let [x, y, z] = [0, 1, 2].map(|k| rotation.column(k).into());
-    Some(Pose([x, y, z, h.column(2).into()]))
-}
-
-/// Minimizes the distances in the image plane.
-fn refined(mut board: Pose, sights: &[Sight]) -> Option<Pose> {
+/// Minimizes the distances in the image plane; returns the sum of their squares with the pose.
+fn refined(mut board: Pose, sights: &[Sight]) -> Option<(f64, Pose)> {
+    let mut left = 0.0;
     for _ in 0..20 {
+        left = 0.0;
         let (mut normal, mut right) = (Matrix6::zeros(), Vector6::zeros());
         for (corner, sight) in sights {
             // A further displacement (d, ω) of the board moves its corner P by d + ω × P.
@@ -196,19 +153,13 @@ fn refined(mut board: Pose, sights: &[Sight]) -> Option<Pose> {
                 return None;
             }
             for k in 0..2 {
-                let gradient: [f64; 3] = core::array::from_fn(|i| {
-                    if i == k {
-                        1.0 / z
-                    } else if i == 2 {
-                        -point[k] / (z * z)
-                    } else {
-                        0.0
-                    }
-                });
+                let mut gradient = [0.0, 0.0, -point[k] / (z * z)];
+                gradient[k] = 1.0 / z;
                 let about = cross(arm, gradient);
                 let row = Vector6::new(gradient[0], gradient[1], gradient[2], about[0], about[1], about[2]);
                 normal += row * row.transpose();
                 right += row * (sight[k] - point[k] / z);
+                left += (sight[k] - point[k] / z).powi(2);
             }
         }
         let step = normal.cholesky()?.solve(&right);
@@ -222,7 +173,7 @@ fn refined(mut board: Pose, sights: &[Sight]) -> Option<Pose> {
             break;
         }
     }
-    board.0.as_flattened().iter().all(|value| value.is_finite()).then_some(board)
+    board.0.as_flattened().iter().all(|value| value.is_finite()).then_some((left, board))
 }
 
 #[cfg(test)]
