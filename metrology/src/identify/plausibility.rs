@@ -188,12 +188,10 @@ pub(super) fn sum_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<String
     let (axes, variances): (Vec<_>, Vec<_>) = held.unzip();
     let largest = variances.into_iter().reduce(f64::max)?;
     let deviation = number::length(largest.sqrt(), setup.description.length);
-    let (axes, are, sums) = match &axes[..] {
-        [one] => ((*one).to_owned(), "is", "its sum"),
-        all => (all.join(", "), "are", "their sums"),
-    };
+    let (are, sums) = if axes.len() == 1 { ("is", "its sum") } else { ("are", "their sums") };
+    let axes = axes.join(", ");
     Some(format!(
         "note: {axes} of the measured frame on the tool {are} held: these joints show only {sums} with the place of \
-         the machine along the same direction, known to {deviation} (1 σ)"
+         the machine along the same direction, known to {deviation} or better (1 σ)"
     ))
 }
