@@ -122,7 +122,8 @@ impl Acceptance {
         }
         if read.limits.is_empty() {
             let mistake = Diagnostic::new(0..text.len(), "there is no limit");
-            document.mistake(mistake.help("write one beside it: `max 0.3 mm, target fitted`"));
+            document
+                .mistake(mistake.help("write a figure and its limit beside it: `max 0.3 mm, target fitted`"));
         }
         document.finish(Some(read))
     }

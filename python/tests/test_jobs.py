@@ -135,7 +135,7 @@ def test_commands():
     assert found.q.shape == (5, 6) and found.left.shape == (5, 6) and before.min() > 0.1
     assert all((reason is None) == (left < 0.001) for reason, left in zip(found.reason, after, strict=True))
     assert pps.compensate(asked[0]).q.shape == (6,)
-    # At its limits of 3 degrees the machine cannot turn on: weighed as 1 m, less is left of both.
+    # At its limits of 3 degrees the machine cannot turn on: less of both together is left if 1 rad weighs as 1 m.
     at_limits = pps.home + np.array([[10, 10, 10, 0.3, turn, turn] for turn in (0.0523, -0.0523)])
     size = [
         np.hypot(*(np.linalg.norm(part, axis=1) for part in (left[:, :3], 1e3 * left[:, 3:])))

@@ -17,6 +17,9 @@ use abbe_core::{Pose, displacement};
 /// Corner on the board, and `(x, y)` of its line of sight.
 type Sight = ([f64; 3], [f64; 2]);
 
+/// Variance of corners beside their line, relative to the one along it, below which they have none.
+const COLLINEAR: f64 = 1e-9;
+
 /// Board in one view, fitted without the machine.
 #[derive(Clone, Debug)]
 pub struct BoardView {
@@ -85,7 +88,11 @@ fn placed(sights: &[Sight]) -> Option<Pose> {
     let mean = sum / sights.len() as f64;
     let about = |corner: &[f64; 3]| Vector3::from(*corner) - mean;
     let scatter = sights.iter().map(|(corner, _)| about(corner) * about(corner).transpose());
-    let axes = svd3(scatter.sum())?.u?;
+    let svd = svd3(scatter.sum())?;
+    let (axes, variances) = (svd.u?, svd.singular_values);
+    if variances[1] < COLLINEAR * variances[0] {
+        return None;
+    }
     let [x, y] = [0, 1].map(|k| axes.column(k).into_owned());
     let plane = Pose([x.into(), y.into(), x.cross(&y).into(), mean.into()]).inverse();
     let in_plane: Vec<Sight> = sights.iter().map(|(corner, sight)| (plane.apply(*corner), *sight)).collect();
@@ -103,8 +110,8 @@ fn mirrored(&Pose([x, y, z, position]): &Pose) -> Pose {
     Pose([less(x), less(y), less(z).map(|part: f64| -part), position])
 }
 
-/// Returns the two poses whose images far away are those of the corners; none if they are
-/// collinear.
+/// Returns the two poses whose images far away are those of the corners; none if these are one
+/// point of the image.
 ///
 /// The origin is the mean of the corners, the axes are the principal ones. With the change `a_k` of
 /// the image along the axis k and the size s of the image, `(a_1, c_1)` and `(a_2, c_2)` are
@@ -128,8 +135,7 @@ fn from_far_away(sights: &[Sight]) -> Option<[Pose; 2]> {
         let [x, y] = [a.push(side * c) * depth, b.push(side * d) * depth];
         Pose([x.into(), y.into(), x.cross(&y).into(), [mean[0] * depth, mean[1] * depth, depth]])
     };
-    let is_flat = b.norm_squared().is_finite() && depth.is_finite();
-    is_flat.then(|| [pose(1.0), pose(-1.0)])
+    depth.is_finite().then(|| [pose(1.0), pose(-1.0)])
 }
 
 /// Minimizes the distances in the image plane; returns the sum of their squares with the pose.

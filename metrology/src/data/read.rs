@@ -132,12 +132,7 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
     let base = match head.get("base") {
         Some(item) => item.choice(&BASES)?,
         // No camera and no board stands in F_0 by design.
-        None if layout
-            .as_ref()
-            .is_some_and(|layout| matches!(layout, Layout::Instruments(all) if all.camera.is_some())) =>
-        {
-            Base::Unknown
-        }
+        None if layout.as_ref().is_some_and(is_camera) => Base::Unknown,
         None => Base::Known,
     };
     let stations = stations(root, &head);
@@ -174,6 +169,10 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
         text: Arc::clone(&root.document.text),
         files: root.document.files.take(),
     })
+}
+
+fn is_camera(layout: &Layout) -> bool {
+    matches!(layout, Layout::Instruments(all) if all.camera.is_some())
 }
 
 fn layout(

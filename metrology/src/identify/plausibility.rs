@@ -192,6 +192,6 @@ pub(super) fn sum_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<String
     let axes = axes.join(", ");
     Some(format!(
         "note: {axes} of the measured frame on the tool {are} held: these joints show only {sums} with the place of \
-         the machine along the same direction, known to {deviation} (1 σ)"
+         the machine along the same direction, known to {deviation} or better (1 σ)"
     ))
 }

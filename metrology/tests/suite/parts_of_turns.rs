@@ -50,8 +50,9 @@ fn left(report: &Report, data: &Data) -> [f64; 2] {
 }
 
 /// Checks arms whose gears have waves that no family has, measured over parts of their turns: the
-/// error within the part is never larger than that of constants alone. Over whole turns the largest
-/// error is at most 1.1 times theirs for four arms of five, and never more than 1.4 times.
+/// error within the part is at most 1.05 times that of constants alone. Over whole turns the largest
+/// error is at most 1.1 times theirs in four parts of five of twenty arms, in all parts of the first
+/// two, and never more than 1.4 times.
 #[test]
 fn terms_over_a_part_of_a_turn_seldom_harm_elsewhere() {
     let arms = if thorough() { 20 } else { 2 };
@@ -77,5 +78,6 @@ fn terms_over_a_part_of_a_turn_seldom_harm_elsewhere() {
     }
     let harmed = ratios.iter().filter(|ratio| **ratio > 1.1).count();
     println!("{harmed} of {} beyond 1.1", ratios.len());
-    assert!(5 * harmed <= ratios.len() && ratios.iter().all(|ratio| *ratio < 1.4), "{ratios:?}");
+    assert!(harmed <= if thorough() { ratios.len() / 5 } else { 0 }, "{ratios:?}");
+    assert!(ratios.iter().all(|ratio| *ratio < 1.4), "{ratios:?}");
 }

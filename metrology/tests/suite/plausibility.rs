@@ -3,7 +3,7 @@
 use abbe::identify::{Loss, Measurement};
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
-use abbe_metrology::identify::{Identify, Prior, Settings};
+use abbe_metrology::identify::{Identify, Prior, Report, Settings};
 use abbe_metrology::measure::Measure;
 use abbe_metrology::monitor::{self, Check, Checks, Monitor};
 use abbe_metrology::simulate::{Places, Simulate};
@@ -104,6 +104,12 @@ fn measured(machine: &Machine, map: &Map, data: &Data) -> Result<Vec<String>, St
 
 /// Returns the outcome of an identification and its warnings.
 fn identified(machine: &Machine, map: &Map, data: &Data) -> (Result<(), String>, Vec<String>) {
+    let (run, recorded) = run(machine, map, data);
+    (run.map(|_| ()), recorded)
+}
+
+/// Returns the report of an identification and its warnings.
+fn run(machine: &Machine, map: &Map, data: &Data) -> (Result<Report, String>, Vec<String>) {
     let settings = Settings {
         loss: Loss::Squares,
         prior: Prior::default(),
@@ -123,8 +129,8 @@ fn identified(machine: &Machine, map: &Map, data: &Data) -> (Result<(), String>,
         accept: Acceptance::default(),
     };
     let mut recorded = RecordedNotes::default();
-    let run = job.run(&mut recorded).map(|_| ()).map_err(|mistake| mistake.to_string());
-    (run, recorded.0)
+    let report = job.run(&mut recorded).map_err(|mistake| mistake.to_string());
+    (report, recorded.0)
 }
 
 /// Scales the values of one joint, as a wrong unit does.
@@ -275,4 +281,68 @@ fn a_single_time_is_no_order() {
     }
     let (is_tested, said) = report(&data);
     assert!(!is_tested && said.len() == 1 && said[0].contains("all rows have the same time"), "{said:?}");
+}
+
+/// Returns a machine of the frames and a map of whole poses, with nothing known of base and tool.
+fn posed(frames: &[(&str, &str, &str)], base: &str) -> (Machine, Map) {
+    let frame = |(name, kind, transform): &(&str, &str, &str)| {
+        let limits = if *kind == "prismatic" { "[0, 400]" } else { "[\"-110 deg\", \"110 deg\"]" };
+        format!(
+            "[[frame]]\nname = \"of {name}\"\nvariable = {{ name = \"{name}\", kind = \"{kind}\", limits = {limits} }}\n\
+             transform = \"{transform}\"\n"
+        )
+    };
+    let text: String = frames.iter().map(frame).collect();
+    let text = format!(
+        "[manipulator]\nname = \"posed\"\nlength = \"mm\"\n{text}[tool]\ntransform = \"Tx(20) Tz(-50)\"\n"
+    );
+    let machine = Machine::of_spec(Spec::parse("posed.toml", &text).unwrap(), "posed.toml");
+    let joint = |(name, kind, _): &(&str, &str, &str)| {
+        let unit = if *kind == "prismatic" { "mm" } else { "deg" };
+        format!("{name} = {{ column = \"{name}\", unit = \"{unit}\" }}\n")
+    };
+    let joints: String = frames.iter().map(joint).collect();
+    let text = format!(
+        "[data]\nuncertainty = \"0.02 mm\"\nangle_uncertainty = \"0.05 mrad\"\nbase = \"{base}\"\nplacement = \"{base}\"\n\n\
+         [joints]\n{joints}\n[pose]\nposition = [\"px\", \"py\", \"pz\"]\nunit = \"mm\"\n\
+         quaternion = {{ columns = [\"w\", \"i\", \"j\", \"k\"], order = \"wxyz\" }}\n"
+    );
+    let map = Map::parse("map.toml", &text, &machine.spec).unwrap();
+    (machine, map)
+}
+
+/// Coordinates of the measured frame that the joints show only together with the place of the
+/// machine are named: all three on slides, the height on a SCARA, none on an arm.
+#[test]
+fn coordinates_that_only_sums_show_are_named() {
+    let slides = [("x", "prismatic", "Tx(x)"), ("y", "prismatic", "Ty(y)"), ("z", "prismatic", "Tz(z)")];
+    let scara = [
+        ("a", "revolute", "Rz(a) Tx(300)"),
+        ("b", "revolute", "Rz(b) Tx(250)"),
+        ("z", "prismatic", "Tz(z)"),
+        ("c", "revolute", "Rz(c)"),
+    ];
+    let wrist = [
+        ("a", "revolute", "Rz(a) Tz(300)"),
+        ("b", "revolute", "Rx(b) Tz(250)"),
+        ("c", "revolute", "Ry(c) Tz(200)"),
+    ];
+    for (frames, expected) in [
+        (
+            &slides[..],
+            Some(
+                "note: x, y, z of the measured frame on the tool are held: these joints show only their sums",
+            ),
+        ),
+        (&scara, Some("note: z of the measured frame on the tool is held: these joints show only its sum")),
+        (&wrist, None),
+    ] {
+        let (machine, map) = posed(frames, "exact");
+        let data = simulated(&machine, &map, 1);
+        let (machine, map) = posed(frames, "unknown");
+        let notes = run(&machine, &map, &data).0.unwrap().notes;
+        let held: Vec<&String> = notes.iter().filter(|note| note.contains("held: these joints")).collect();
+        assert!(held.len() == usize::from(expected.is_some()), "{held:?}");
+        assert!(held.iter().all(|note| note.starts_with(expected.unwrap())), "{held:?}");
+    }
 }

@@ -47,7 +47,7 @@ pub const SHORTER: f64 = 0.25;
 pub const CONTRACTION: f64 = 0.5;
 
 /// Largest step of a converged iteration, in rad and metres.
-pub const REST: f64 = 1e-9;
+pub const REST: f64 = 1e-10;
 
 /// Metres that weigh as much as one rad. The small value gives the position of the tool point
 /// priority.
