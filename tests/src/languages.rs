@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_parameters};
-use abbe::compensator::{CHANGE, Compensated, Cycle, LARGEST, Status, bound, compensate};
-use abbe::function::{Array, COMPENSATED, Signature};
-use abbe::{Description, Error, Function, Input, Manipulator, Pose, VariableKind};
+use abbe::compensator::{Begun, CHANGE, Compensated, Cycle, LARGEST, Status, begin, bound, compensate};
+use abbe::function::{Array, BEGIN, COMMANDS, COMPENSATED, Signature};
+use abbe::{Description, Error, Function, Input, Manipulator, Pose, Quantity, VariableKind};
 
 /// Spec with keywords of languages, and names that their functions use.
 pub const NAMES: &str = r#"
@@ -123,7 +123,7 @@ fn cycle(description: &Description, index: usize) -> Vec<f64> {
 /// Returns the arrays that functions take, in the order of their numbers in a configuration.
 pub fn given_arrays() -> Vec<&'static Array> {
     let mut arrays: Vec<&Array> = Vec::new();
-    let functions = Function::ALL.map(Function::signature).into_iter().chain([&COMPENSATED]);
+    let functions = Function::ALL.map(Function::signature).into_iter().chain(COMMANDS);
     let functions = functions.chain(Function::OF_INVERSE.map(Function::signature));
     for array in functions.flat_map(|signature| signature.arguments) {
         if !arrays.contains(&array) {
@@ -164,7 +164,6 @@ pub fn compare(
 ) -> Result<f64, String> {
     let mut found = found;
     let mut worst: f64 = 0.0;
-    let commands = COMPENSATED.results_len(robot.description());
     for given in given {
         for function in Function::all(robot.description()) {
             let expected = evaluate(function, &arguments(robot, function.signature(), given));
@@ -184,48 +183,87 @@ pub fn compare(
                 first += len;
             }
         }
-        let numbers = found.split_off(..commands + 1).ok_or("numbers are missing")?;
-        compare_compensated(robot, &evaluate, given, &numbers[..commands], numbers[commands])?;
+        for command in COMMANDS {
+            let count = command.results_len(robot.description());
+            let numbers = found.split_off(..count + 1).ok_or("numbers are missing")?;
+            compare_command(robot, &evaluate, command, given, &numbers[..count], numbers[count])?;
+        }
     }
     if found.is_empty() { Ok(worst) } else { Err(format!("{} numbers more", found.len())) }
 }
 
-/// Compares compensated commands, their status, and the errors before and after, with those in
-/// Rust, to 1e-9 of a metre or a rad where the pose is reached, else to 1e-6.
+/// Compares the results of corrected commands, or of where one begins, and their status, with those
+/// in Rust, to 1e-9 of a metre or a rad where the pose is reached, else to 1e-6.
 ///
 /// # Errors
 ///
 /// Returns the first difference that is too large.
-pub fn compare_compensated(
+pub fn compare_command(
     robot: &dyn Manipulator,
     evaluate: impl Fn(Function, &[f64]) -> Vec<f64>,
+    signature: &Signature,
     given: &[f64],
     found: &[f64],
     status: f64,
 ) -> Result<(), String> {
     let description = robot.description();
     let name = &description.name;
-    let expected = compensated(robot, |function, given| Ok(evaluate(function, given)), given).unwrap();
-    if status != f64::from(expected.status.code()) {
-        return Err(format!("{name}: status {status} and {:?}", expected.status));
+    let evaluate = |function, given: &[f64]| Ok(evaluate(function, given));
+    let (expected, own) = if signature.name == COMPENSATED.name {
+        let done = compensated(robot, evaluate, given).unwrap();
+        ([&done.q[..], &done.correction, &done.before, &done.after].concat(), done.status)
+    } else {
+        let begun = begun(robot, evaluate, given).unwrap();
+        ([&begun.command[..], &begun.last, &begun.after].concat(), begun.status)
+    };
+    if status != f64::from(own.code()) {
+        return Err(format!("{name} {}: status {status} and {own:?}", signature.name));
     }
     // Where the pose is not reached, a singular pose amplifies rounding errors.
-    let tolerance = if expected.status == Status::Reached { 1e-9 } else { 1e-6 };
+    let tolerance = if own == Status::Reached { 1e-9 } else { 1e-6 };
     let metre = 1.0 / description.length.in_metres();
-    let variables = description.variables.iter().map(|variable| match variable.kind {
-        VariableKind::Revolute => 1.0,
-        VariableKind::Prismatic => metre,
-    });
+    let variables = description.variables.iter().map(|variable| variable.kind.either(1.0, metre));
     // One metre or one rad of each number.
-    let rows = [metre, metre, metre, 1.0, 1.0, 1.0];
-    let units = variables.clone().chain(variables).chain(rows).chain(rows);
-    let expected =
-        expected.q.iter().chain(&expected.correction).chain(&expected.before).chain(&expected.after);
+    let units = signature.results.iter().flat_map(|array| match array.quantity {
+        Quantity::Displacement => vec![metre, metre, metre, 1.0, 1.0, 1.0],
+        _ => variables.clone().collect(),
+    });
     for ((found, expected), unit) in found.iter().zip(expected).zip(units) {
         let is_close = (found - expected).abs() <= tolerance * unit;
-        is_close.then_some(()).ok_or_else(|| format!("{name} {status}: {found} and {expected}"))?;
+        let differ = || format!("{name} {} {status}: {found} and {expected}", signature.name);
+        is_close.then_some(()).ok_or_else(differ)?;
     }
     Ok(())
+}
+
+/// Computes the command that drives carry out where they stand, by the functions that `evaluate`
+/// gives.
+///
+/// # Errors
+///
+/// Returns those of `evaluate`.
+pub fn begun(
+    robot: &dyn Manipulator,
+    evaluate: impl Fn(Function, &[f64]) -> Result<Vec<f64>, Error>,
+    given: &[f64],
+) -> Result<Begun<Vec<f64>>, Error> {
+    let description = robot.description();
+    let count = description.variables.len();
+    let given = arguments(robot, &BEGIN, given);
+    let (given, rotations) = given.split_at(given.len() - 3);
+    let (q, rest) = given.split_at(count);
+    let parameters = description.parameters.len();
+    let target = pose(&evaluate(Function::RealPose, given)?);
+    let rotations = std::array::from_fn(|k| rotations[k]);
+    begin(description, &target, &q.to_vec(), rotations, vec![[0.0; 6]; count], |q, columns| {
+        let step = evaluate(Function::CompensatorStep, &[&q[..], rest].concat())?;
+        columns.as_flattened_mut().copy_from_slice(&step[12..]);
+        Ok(pose(&evaluate(Function::Pose, &[&q[..], &rest[..parameters]].concat())?))
+    })
+}
+
+fn pose(numbers: &[f64]) -> Pose {
+    Pose(std::array::from_fn(|i| std::array::from_fn(|j| numbers[3 * i + j])))
 }
 
 /// Computes the compensated commands of a configuration by the functions that `evaluate` gives.
@@ -247,7 +285,6 @@ pub fn compensated(
     let (change, cycle) = cycle.split_at(count);
     let (largest, rotations) = cycle.split_at(count);
     let cycle = Cycle { last, change, largest, rotations: std::array::from_fn(|k| rotations[k]) };
-    let pose = |numbers: &[f64]| Pose(std::array::from_fn(|i| std::array::from_fn(|j| numbers[3 * i + j])));
     let configuration = &given[..count + description.parameters.len()];
     let target = pose(&evaluate(Function::Pose, configuration)?);
     compensate(description, &target, &q.to_vec(), &cycle, vec![[0.0; 6]; count], |q, columns| {

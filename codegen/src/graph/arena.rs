@@ -18,6 +18,8 @@ pub struct Graph {
     numbers: IndexMap<u64, String, FxBuildHasher>,
     tables: Vec<Arc<Table>>,
     pub(super) classes: Classes,
+    /// `true` if the nodes are evaluated in single precision, which has other rounding errors.
+    pub(crate) is_single: bool,
 }
 
 impl Graph {

@@ -33,6 +33,7 @@ pub use layout::SourceFile;
 use abbe_spec::Spec;
 
 use crate::chain::Model;
+use crate::procedure::Precision;
 use crate::program::Routines;
 
 /// A target language.
@@ -118,7 +119,8 @@ impl Language {
     ) -> Vec<SourceFile> {
         let tunable = matches!(self, Self::Fmu(_)).then(|| spec.with_magnitudes_as_inputs());
         let spec = tunable.as_ref().unwrap_or(spec);
-        let model = Model::new(spec);
+        let precision = if let Self::C(real) = self { real.precision() } else { Precision::Double };
+        let model = Model::with_precision(spec, precision);
         let routines = Routines::new(spec, &model);
         let functions = functions(&routines);
         let routines = routines.only(&functions);

@@ -5,11 +5,15 @@
 //!
 //! Calls of the functions of a file.
 
+use abbe_core::function::{COMMANDS, Signature};
+use abbe_spec::Spec;
+
 use super::expression::{Binding, Expression, Value as Entry, infix};
 use super::flat::{Results, filled};
 use super::layout::Writer;
 use crate::procedure::{
-    Binary, Condition, Counter, Index, Kind, Procedure, Statement, Unary, Value, Variable, Whole,
+    Binary, Condition, Counter, Index, Kind, Precision, Procedure, Statement, Unary, Value, Variable, Whole,
+    compensated,
 };
 use crate::program::{Array, Role, Routine, Routines};
 
@@ -392,10 +396,16 @@ pub(super) fn arrays(variables: &[Variable]) -> impl Iterator<Item = (&'static s
     })
 }
 
-/// Splits the procedures of the corrected command into those that it calls, and itself.
-pub(super) fn split(mut procedures: Vec<Procedure>) -> (Vec<Procedure>, Procedure) {
-    let last = procedures.pop().expect("the corrected command is the last one");
-    (procedures, last)
+/// Returns the procedures that corrected commands call, and the exported functions.
+pub(super) fn commands(
+    spec: &Spec,
+    routines: &Routines,
+    precision: Precision,
+) -> (Vec<Procedure>, Vec<(&'static Signature, Procedure)>) {
+    let mut helpers = compensated(spec, precision);
+    let commands = helpers.split_off(helpers.len() - COMMANDS.len());
+    let commands = COMMANDS.into_iter().zip(commands);
+    (helpers, commands.filter(|(signature, _)| routines.exported.contains(&signature.name)).collect())
 }
 
 /// A call of a generated function, or of a helper of several functions.

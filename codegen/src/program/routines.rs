@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe_core::function::{COMPENSATED, Count, Signature};
+use abbe_core::function::{COMMANDS, COMPENSATED, Count, Signature};
 use abbe_core::{Description, Function, Orientation};
 use abbe_spec::Spec;
 use abbe_spec::expr::Table as LookupTable;
@@ -106,7 +106,7 @@ impl Routines {
         let (helpers, tables, sums) = loops.map_or_else(Default::default, FrameLoops::finish);
         list.extend(helpers);
         let lookup_tables = spec.tables.clone();
-        let commands = Some(&COMPENSATED).filter(|_| !description.variables.is_empty());
+        let commands = COMMANDS.into_iter().filter(|_| !description.variables.is_empty());
         let exported = Function::all(&description).map(Function::signature).chain(commands);
         let exported = exported.map(|signature| signature.name).collect();
         let mut routines = Self { description, list, exported, tables, sums, lookup_tables };
@@ -120,7 +120,7 @@ impl Routines {
     #[must_use]
     pub fn only(mut self, exported: &[&'static str]) -> Self {
         let mut needed = exported.to_vec();
-        if self.has_compensated() && exported.contains(&COMPENSATED.name) {
+        if COMMANDS.iter().any(|signature| exported.contains(&signature.name)) {
             needed.extend([Function::Pose, Function::CompensatorStep].map(Function::name));
         }
         let mut next = 0;
@@ -157,7 +157,7 @@ impl Routines {
 
     /// Iterates over the signatures of the exported functions, in their order.
     pub fn signatures(&self) -> impl Iterator<Item = &'static Signature> {
-        let all = Function::all(&self.description).map(Function::signature).chain([&COMPENSATED]);
+        let all = Function::all(&self.description).map(Function::signature).chain(COMMANDS);
         all.filter(|signature| self.exported.contains(&signature.name))
     }
 
@@ -169,6 +169,11 @@ impl Routines {
     /// Returns `true` if there are corrected commands.
     pub fn has_compensated(&self) -> bool {
         self.exported.contains(&COMPENSATED.name)
+    }
+
+    /// Returns `true` if there are corrected commands, or the function that begins with them.
+    pub fn has_commands(&self) -> bool {
+        COMMANDS.iter().any(|signature| self.exported.contains(&signature.name))
     }
 
     /// Returns the routine with this name.

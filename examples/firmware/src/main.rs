@@ -96,4 +96,53 @@ mod tests {
         let far = soft.drives().iter().zip(&command(0.0)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(far <= 20.0 + 1e-9, "{far} mm");
     }
+
+    /// Largest move of a drive in a cycle, beyond that of its command, in bounds of the change.
+    fn moved(from: &Joints, to: &Joints, commanded: &Joints, before: &Joints) -> f64 {
+        let bounds = pps::first_cycle().change;
+        let beyond = |j: usize| (to[j] - from[j]).abs() - (commanded[j] - before[j]).abs();
+        (0..from.len()).map(|j| beyond(j) / bounds[j]).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn faults_stay_and_paths_resume_where_the_drives_stand() {
+        let mut controller = begun();
+        for stop in 0..200_u32 {
+            // Along the path, until something stops it.
+            let mut before = command(f64::from(stop) / 200.0);
+            for k in 0..30 {
+                let now = command(f64::from(stop) / 200.0 + f64::from(k) / 2000.0);
+                let from = *controller.drives();
+                let done = controller.cycle(&now).unwrap();
+                let beyond = if k == 0 { &now } else { &before };
+                assert!(moved(&from, &done.q, &now, beyond) <= 1.0 + 1e-9, "{stop} {k}");
+                before = now;
+            }
+            let standing = *controller.drives();
+            let mut wrong = before;
+            wrong[(stop % 6) as usize] = [f64::NAN, -1e4, f64::INFINITY][(stop % 3) as usize];
+            let fault = controller.cycle(&wrong).unwrap_err();
+            for _ in 0..20 {
+                // Nothing but a reset ends the fault, whatever the command is.
+                assert_eq!(controller.cycle(&before), Err(fault));
+                assert_eq!(controller.drives(), &standing);
+            }
+            // A path elsewhere is refused, and one that begins at the drives moves none of them.
+            controller.reset(standing);
+            let mut elsewhere = before;
+            elsewhere[1] = if before[1] < 280.0 { before[1] + 100.0 } else { before[1] - 100.0 };
+            assert_eq!(controller.cycle(&elsewhere), Err(Fault::Elsewhere));
+            controller.reset(standing);
+            let begin = controller.command().unwrap();
+            let done = controller.cycle(&begin).unwrap();
+            assert_eq!(done.status, Status::Reached);
+            assert!(moved(&standing, &done.q, &begin, &begin) < 1e-6);
+            // The next path begins beside the drives, which are pushed while they stand.
+            controller.hold();
+            let next = command(f64::from(stop + 1) / 200.0);
+            let share = f64::from(stop % 7) / 7.0;
+            let far = [20.0, 20.0, 20.0, 0.05, 0.01, 0.01];
+            controller.reset(std::array::from_fn(|j| next[j] + share * far[j]));
+        }
+    }
 }

@@ -50,9 +50,9 @@ fn left(report: &Report, data: &Data) -> [f64; 2] {
 }
 
 /// Checks arms whose gears have waves that no family has, measured over parts of their turns: the
-/// error within the part is at most 1.05 times that of constants alone. Over whole turns the largest
-/// error is at most 1.1 times theirs in four parts of five of twenty arms, in all parts of the first
-/// two, and never more than 1.4 times.
+/// error within the part is at most 1.05 times that of constants alone. Over whole turns the
+/// largest error is at most 1.1 times theirs in four parts of five of twenty arms, in all parts of
+/// the first two, and never more than 1.4 times.
 #[test]
 fn terms_over_a_part_of_a_turn_seldom_harm_elsewhere() {
     let arms = if thorough() { 20 } else { 2 };

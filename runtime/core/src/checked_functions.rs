@@ -80,6 +80,31 @@ macro_rules! checked_functions {
             })
         }
 
+        /// Computes the command that [`compensated`] answers with the drives where they stand: the
+        /// ideal tool is there where the real one is with the drives at `drives`. A path that
+        /// begins there moves none of them, if [`last`](::abbe::compensator::Cycle::last) of the
+        /// first cycle is that of the result and `rotations` are those of the cycle.
+        ///
+        /// Returns the command within the limits of the variables, with what is left at it; see
+        /// [`begin`](::abbe::compensator::begin). Fails if an input is outside its range or a
+        /// number is not finite.
+        pub fn begin(
+            drives: &[f64; VARIABLES],
+            s: &Parameters,
+            u: &Inputs,
+            rotations: [f64; 3],
+        ) -> Result<$crate::compensator::Begun<[f64; VARIABLES]>, $crate::Error> {
+            $crate::checks::finite($crate::Quantity::Rotations, &rotations)?;
+            let target = real_pose(drives, s, u)?;
+            let (s, u, columns) = (&s.to_array(), &u.to_array(), [[0.0; 6]; VARIABLES]);
+            $crate::compensator::begin(&DESCRIPTION, &target, drives, rotations, columns, |q, columns| {
+                let mut pose = [[0.0; 3]; 4];
+                checked::compensator_step(q, s, u, &mut pose, columns)?;
+                checked::pose(q, s, &mut pose)?;
+                Ok($crate::Pose(pose))
+            })
+        }
+
         $crate::for_functions!(every: $crate::evaluate_functions, $name);
 
         impl $crate::Manipulator for $name {

@@ -24,10 +24,12 @@
 //! only where a joint is at its limit. The cost is bounded by [`ITERATIONS`] and [`solves`], and
 //! nothing is allocated.
 
+mod begin;
 mod cycle;
 mod departure;
 mod shortest;
 
+pub use self::begin::{Begun, begin};
 pub use self::cycle::{CHANGE, Compensated, Cycle, LARGEST, REACHED, Status, bound};
 pub use self::departure::{PASSES, solves};
 pub use self::shortest::DAMPING;

@@ -6,7 +6,10 @@ mod signature;
 mod table;
 
 pub use signature::{Array, Count, Signature};
-pub use table::COMPENSATED;
+pub use table::{BEGIN, COMPENSATED};
+
+/// Signatures of the functions that are no functions of nodes, but iterations with others.
+pub const COMMANDS: [&Signature; 2] = [&BEGIN, &COMPENSATED];
 
 macro_rules! functions {
     (: $($function:ident = $name:ident($($argument:ident),+) -> ($($result:ident),+) $($oriented:ident)?:

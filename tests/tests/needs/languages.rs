@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use abbe::function::{Array, COMPENSATED, Signature};
+use abbe::function::{Array, COMMANDS, Signature};
 use abbe::{Function, Manipulator};
 use abbe_codegen::print::{Language, SourceFile};
 use abbe_interpreter::Interpreter;
@@ -93,7 +93,7 @@ fn called(robot: &dyn Manipulator) -> Value {
     let functions = Function::all(description)
         .map(Function::signature)
         .map(|signature| one(signature, signature.has_margin(description.orientation).then_some("margin")));
-    let functions = functions.chain([one(&COMPENSATED, Some("status"))]);
+    let functions = functions.chain(COMMANDS.map(|command| one(command, Some("status"))));
     json!({ "arrays": arrays.collect::<Vec<_>>(), "functions": functions.collect::<Vec<_>>() })
 }
 
@@ -192,7 +192,8 @@ fn mutants_of(language: Language) -> Result<(), Missing> {
     let measured = Spec::read(specs::path("measured")).unwrap();
     let is_own =
         |name: &str| Function::ALL.iter().any(|function| function.name() == name.trim_start_matches('_'));
-    let is_shared = |name: &str| !is_own(name) && name.trim_start_matches('_') != "given";
+    let is_shared =
+        |name: &str| !is_own(name) && !matches!(name.trim_start_matches('_'), "given" | "checked");
     let own = survivors(&measured, &is_own);
     assert!(own.is_empty(), "{own:#?}");
     let [three, mut six] = [&measured, &six_joints].map(|spec| survivors(spec, &is_shared));

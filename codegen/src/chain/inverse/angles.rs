@@ -3,13 +3,33 @@
 use super::lines::Probes;
 use crate::graph::{Graph, Node, Vector};
 
-/// Relative size below which a number is a rounding error, and any angle solves its equation.
-const NOTHING: f64 = 1e-15;
-/// Relative size below which a vector has no direction: many rounding errors, so that the start is
-/// kept in spite of them.
-const NO_DIRECTION: f64 = 1e-13;
-/// Share by which a cosine may exceed 1, as a rounding error.
-pub(super) const ROUNDING: f64 = 1e-12;
+/// Sizes that count as rounding errors, relative to those of the numbers, in double and in single
+/// precision.
+#[derive(Clone, Copy)]
+pub(super) enum Rounding {
+    /// A number below it is 0, and any angle solves its equation.
+    Nothing,
+    /// A vector below it has no direction: many rounding errors, so that the start is kept in spite
+    /// of them.
+    NoDirection,
+    /// Share by which a cosine may exceed 1.
+    Cosine,
+    /// Share of a range beyond a limit that still counts as at the limit.
+    Limit,
+}
+
+impl Rounding {
+    /// Returns the size in the precision of a graph.
+    pub(super) fn size(self, g: &Graph) -> f64 {
+        let [double, single] = match self {
+            Self::Nothing => [1e-15, 5e-7],
+            Self::NoDirection => [1e-13, 5e-6],
+            Self::Cosine => [1e-12, 1e-5],
+            Self::Limit => [1e-13, 2e-6],
+        };
+        if g.is_single { single } else { double }
+    }
+}
 
 /// Sine and cosine of an angle.
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +99,7 @@ pub(super) fn angle_between(
     let back = g.cross(along, to);
     let cosine = g.dot(beyond, back);
     // Both vectors have none at the same time.
-    let nothing = g.constant((NO_DIRECTION * size).powi(2));
+    let nothing = g.constant((Rounding::NoDirection.size(g) * size).powi(2));
     let [s, c] = [free.sine, free.cosine].map(|part| g.mul(nothing, part));
     Angle { sine: g.add(sine, s), cosine: g.add(cosine, c) }
 }
@@ -95,7 +115,7 @@ pub(super) fn linear(g: &mut Graph, [k, c, s]: [Node; 3], free: Angle, size: f64
         [c, s]
     } else {
         // A quarter turn from the start, of which a quarter turn is a solution if k is 0.
-        let nothing = g.constant(NOTHING * size);
+        let nothing = g.constant(Rounding::Nothing.size(g) * size);
         let [sine, cosine] = [free.sine, free.cosine].map(|part| g.mul(nothing, part));
         [g.add(c, sine), g.sub(s, cosine)]
     };
@@ -107,7 +127,7 @@ pub(super) fn linear(g: &mut Graph, [k, c, s]: [Node; 3], free: Angle, size: f64
 
 /// Returns the solutions with given A² and w².
 fn roots(g: &mut Graph, [k, c, s]: [Node; 3], square: Node, rest: Node) -> [Root; 2] {
-    let slack = g.constant(ROUNDING);
+    let slack = g.constant(Rounding::Cosine.size(g));
     let slack = g.mul(slack, square);
     let exists = g.add(rest, slack);
     let zero = g.zero();

@@ -2,7 +2,7 @@
 
 use abbe_core::VariableKind;
 
-use super::angles::{Angle, Root, angle_between, linear};
+use super::angles::{Angle, Root, Rounding, angle_between, linear};
 use super::lines::{Line, Probes, reject};
 use super::partial::{Joint, Partial};
 use crate::graph::{Graph, Node, Vector};
@@ -22,7 +22,10 @@ impl Arm<'_> {
         let [first, second, third] = &self.lines;
         let turns = |line: &Line| line.kind == VariableKind::Revolute;
         let probes = self.probes;
-        if !turns(first) || !turns(second) || probes.are_parallel(g, first, second) && self.is_same(g) {
+        if !turns(first)
+            || !turns(second)
+            || probes.are_parallel(g, first.along, second.along) && self.is_same(g)
+        {
             return None;
         }
         if !turns(third) {
@@ -32,12 +35,13 @@ impl Arm<'_> {
         if probes.are_zero(g, &moved, probes.size) {
             return None;
         }
-        if probes.are_parallel(g, second, third) {
+        if probes.are_parallel(g, second.along, third.along) {
             let between = probes.offset(g, second, third.at);
             let is_one = probes.are_zero(g, &between, probes.size);
-            return (!is_one && !probes.are_parallel(g, first, second)).then(|| self.planar(g, to));
+            return (!is_one && !probes.are_parallel(g, first.along, second.along))
+                .then(|| self.planar(g, to));
         }
-        if probes.are_parallel(g, first, second) {
+        if probes.are_parallel(g, first.along, second.along) {
             return Some(self.behind_parallel(g, to));
         }
         if let Some(centre) = probes.common_point(g, first, second) {
@@ -185,7 +189,7 @@ impl Arm<'_> {
         let (probes, size) = (self.probes, self.size());
         let from = |g: &mut Graph, origin: Vector| [self.point, to].map(|point| g.sub_vectors(point, origin));
         let mut found = Vec::new();
-        if probes.are_parallel(g, &first, &second) {
+        if probes.are_parallel(g, first.along, second.along) {
             let climb = g.dot(second.along, slide.along);
             if probes.are_zero(g, &[climb], 1.0) {
                 return None;
@@ -222,7 +226,7 @@ impl Arm<'_> {
         let square = g.mul(middle, middle);
         let square = g.sub(square, ss);
         let square = g.add(square, tt);
-        let slack = g.constant(1e-12 * size);
+        let slack = g.constant(Rounding::Cosine.size(g) * size);
         let exists = g.add(square, slack);
         let zero = g.zero();
         let square = g.max(square, zero);

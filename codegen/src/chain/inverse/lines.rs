@@ -14,6 +14,11 @@ use crate::graph::{Frame, Graph, Node, Vector};
 /// Distance, relative to the size of the manipulator, and sine below which axes intersect or are
 /// parallel: angles of many specs have that many digits.
 const STRUCTURE: f64 = 1e-9;
+/// Angle of two axes in rad below which they are parallel.
+const PARALLEL: f64 = 1e-8;
+/// Distance of the point where two axes intersect, compared with the size, beyond which they do not
+/// count as intersecting: it would have few digits.
+const FAR: f64 = 1e4;
 /// Largest relative difference of numbers that count as equal.
 const SAME: f64 = 1e-12;
 /// Number of sets of parameters at which a structure is verified.
@@ -168,25 +173,27 @@ impl Probes {
         v.map(|part| self.cleaned(g, part, size))
     }
 
-    pub(super) fn are_parallel(&self, g: &mut Graph, a: &Line, b: &Line) -> bool {
-        let cross = g.cross(a.along, b.along);
-        self.are_zero(g, &cross, 1.0)
+    pub(super) fn are_parallel(&self, g: &mut Graph, a: Vector, b: Vector) -> bool {
+        let cross = g.cross(a, b);
+        self.are_zero(g, &cross, PARALLEL / STRUCTURE)
     }
 
     /// Returns the point where two lines intersect.
     pub(super) fn common_point(&self, g: &mut Graph, a: &Line, b: &Line) -> Option<Vector> {
-        if self.are_parallel(g, a, b) {
+        if self.are_parallel(g, a.along, b.along) {
             return None;
         }
         let normal = g.cross(a.along, b.along);
         let between = g.sub_vectors(b.at, a.at);
-        let apart = g.dot(normal, between);
-        if !self.are_zero(g, &[apart], self.size) {
-            return None;
-        }
+        let (apart, length) = (g.dot(normal, between), g.norm(normal));
+        let apart = g.div(apart, length);
         let across = g.cross(between, b.along);
         let (way, square) = (g.dot(across, normal), g.dot(normal, normal));
         let way = g.div(way, square);
+        let is_far = self.nominal(g, way).abs() > FAR * self.size;
+        if is_far || !self.are_zero(g, &[apart], self.size) {
+            return None;
+        }
         let offset = g.scale(way, a.along);
         let point = g.add_vectors(a.at, offset);
         Some(self.cleaned_vector(g, point, self.size))

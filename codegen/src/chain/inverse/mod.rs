@@ -29,16 +29,13 @@ use abbe_core::VariableKind;
 use abbe_spec::expr::{Function, Symbol};
 use abbe_spec::{Spec, Variable};
 
-use self::angles::{Angle, Root};
+use self::angles::{Angle, Root, Rounding};
 use self::arm::Arm;
 use self::lines::{Line, Lines};
 use self::motion::Motion;
 use self::partial::{Joint, Partial};
 use self::wrist::Wrist;
 use crate::graph::{Frame, Graph, Node, Op, Vector};
-
-/// Distance beyond a limit that still counts as at the limit, relative to the range.
-const AT_LIMIT: f64 = 1e-13;
 
 /// Inverse kinematics of a spec in closed form. The variables are the joints near which solutions
 /// are wanted.
@@ -56,6 +53,7 @@ impl Inverse {
     pub(crate) fn new(graph: &mut Graph, spec: &Spec) -> Option<Self> {
         // Values of nodes in a small graph are found soon.
         let mut apart = Graph::with_tables(&spec.tables);
+        apart.is_single = graph.is_single;
         let Self { solutions, found } = Self::apart(&mut apart, spec)?;
         let mut nodes = graph.adopt(&apart, &[solutions.concat(), found].concat());
         let joints = spec.variables.len();
@@ -169,7 +167,7 @@ fn finished(g: &mut Graph, spec: &Spec, partial: &Partial, free: &[Angle]) -> (V
     let mut margins = partial.exists.clone();
     let mut within = |g: &mut Graph, value: Node, variable: &Variable| {
         let [lower, upper] = variable.limits;
-        let slack = if (upper - lower).is_finite() { AT_LIMIT * (upper - lower) } else { 0.0 };
+        let slack = if (upper - lower).is_finite() { Rounding::Limit.size(g) * (upper - lower) } else { 0.0 };
         let mut value = value;
         let ends = [(lower, lower - slack), (upper, upper + slack)]
             .map(|(limit, end)| limit.is_finite().then(|| (g.constant(limit), g.constant(end))));

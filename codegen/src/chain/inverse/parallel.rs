@@ -19,8 +19,10 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
     let probes = &lines.probes;
     let all: &[Line; 6] = lines.lines.as_slice().try_into().ok()?;
     let [first, second, third, fourth, fifth, sixth] = *all;
-    let is_parallel = probes.are_parallel(g, &second, &third) && probes.are_parallel(g, &second, &fourth);
-    let others = probes.are_parallel(g, &first, &second) || probes.are_parallel(g, &fourth, &fifth);
+    let is_parallel = probes.are_parallel(g, second.along, third.along)
+        && probes.are_parallel(g, second.along, fourth.along);
+    let others = probes.are_parallel(g, first.along, second.along)
+        || probes.are_parallel(g, fourth.along, fifth.along);
     let between = [(second, third), (third, fourth)].map(|(a, b)| probes.offset(g, &a, b.at));
     let is_one = between.iter().any(|between| probes.are_zero(g, between, probes.size));
     if all.iter().any(|line| line.kind == VariableKind::Prismatic) || !is_parallel || others || is_one {

@@ -16,7 +16,7 @@ use abbe_core::VariableKind;
 use abbe_spec::expr::{Elementary, Expression, Function, Motion, Symbol};
 use abbe_spec::{Closure, Factor, Spec};
 
-use super::angles::{Angle, ROUNDING, linear};
+use super::angles::{Angle, Rounding, linear};
 use super::lines::{Line, Probes, at_zero, line, reject};
 use super::partial::{Joint, Partial};
 use crate::chain::lower_pairs;
@@ -124,7 +124,7 @@ impl Leg {
             let (height, ww) = (g.dot(line.along, w), g.dot(w, w));
             let (hh, beyond) = (g.mul(height, height), g.sub(square, ww));
             let (rest, zero) = (g.add(hh, beyond), g.zero());
-            let (least, slack) = (g.max(rest, zero), g.constant(ROUNDING * size * size));
+            let (least, slack) = (g.max(rest, zero), g.constant(Rounding::Cosine.size(g) * size * size));
             let (half, exists) = (g.sqrt(least), g.add(rest, slack));
             let ends = [g.sub(height, half), g.add(height, half)];
             return Some(ends.map(|end| (Joint::Slide(end), vec![exists])).to_vec());

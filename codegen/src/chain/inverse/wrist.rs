@@ -13,10 +13,7 @@ pub(super) struct Wrist<'a> {
 impl<'a> Wrist<'a> {
     /// Returns `None` if consecutive axes are parallel.
     pub(super) fn new(g: &mut Graph, probes: &'a Probes, axes: [Vector; 3]) -> Option<Self> {
-        let mut turns = |a: usize, b: usize| {
-            let cross = g.cross(axes[a], axes[b]);
-            !probes.are_zero(g, &cross, 1.0)
-        };
+        let mut turns = |a: usize, b: usize| !probes.are_parallel(g, axes[a], axes[b]);
         (turns(0, 1) && turns(1, 2)).then_some(Self { axes, probes })
     }
 

@@ -16,11 +16,18 @@ use crate::chain::sources::{self, Causes};
 use crate::chain::tree::{ClosedLoops, Parts};
 use crate::chain::walk::transform;
 use crate::graph::{Graph, Node};
+use crate::procedure::Precision;
 
 impl Model {
     /// Builds all nodes. This cannot fail for a checked spec.
     pub fn new(spec: &Spec) -> Self {
+        Self::with_precision(spec, Precision::Double)
+    }
+
+    /// Builds all nodes for numbers of a precision.
+    pub fn with_precision(spec: &Spec, precision: Precision) -> Self {
         let mut graph = Graph::with_tables(&spec.tables);
+        graph.is_single = precision == Precision::Single;
         if spec.is_serial() {
             let chain = Chain::new(&mut graph, spec);
             Self::from_kinematics(graph, spec, chain, Chain::machine)

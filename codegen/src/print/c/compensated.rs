@@ -1,7 +1,7 @@
-//! Corrected commands in C, by the fixed number of steps of `abbe::compensator`.
+//! Corrected commands in C, and where they begin, as `abbe::compensator` computes them.
 
 use abbe_core::compensator::Status;
-use abbe_core::function::COMPENSATED;
+use abbe_core::function::{Array, BEGIN, Signature};
 use abbe_spec::Spec;
 
 use super::functions::{documentation, head};
@@ -9,47 +9,62 @@ use super::heads::SIZE;
 use super::procedures::CPrinter;
 use super::real::Real;
 use crate::print::layout::Writer;
-use crate::print::procedure::{Printer, split};
-use crate::procedure::{Procedure, compensated};
+use crate::print::procedure::{Printer, commands};
 use crate::program::Routines;
 
-pub(super) fn declaration(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
-    if !routines.has_compensated() {
-        return;
-    }
-    writer.blank();
-    let own = Status::ALL.into_iter().filter(|status| *status != Status::Reached);
-    let own: Vec<&'static str> = own.map(Status::name).collect();
+/// Prints the declaration of a corrected command, or of where one begins.
+pub(super) fn declaration(
+    writer: &mut Writer,
+    spec: &Spec,
+    routines: &Routines,
+    signature: &Signature,
+    real: Real,
+) {
+    let is_own = |status: &Status| match *status {
+        Status::Reached => false,
+        Status::NotReached => true,
+        _ => signature.name != BEGIN.name,
+    };
+    let own: Vec<&'static str> = Status::ALL.into_iter().filter(is_own).map(Status::name).collect();
     let upper = spec.name.to_ascii_uppercase();
-    let end = format!(
-        "With `{upper}_OK` and the statuses from `{upper}_NOT_CONVERGED` on, the commands are within the limits and the \
-         bounds, and `after` is what is left at them. `{upper}_OK`: {} With any other status, nothing is written. Arrays \
-         may overlap: `corrected` may be `q`, and `correction` may be `last`",
-        real.precision().meaning(Status::Reached)
-    );
-    documentation(writer, &routines.description, &COMPENSATED, &own, Some(&end));
-    writer.lines(&format!("{};", head(routines, &COMPENSATED, real, SIZE)));
+    let reached = real.precision().meaning(Status::Reached);
+    let end = if signature.name == BEGIN.name {
+        format!(
+            "With `{upper}_OK` and `{upper}_NOT_REACHED`, `after` is what is left. `{upper}_OK`: {reached} With any other \
+             status, nothing is written. Arrays may overlap: `command` may be `q`"
+        )
+    } else {
+        format!(
+            "With `{upper}_OK` and the statuses from `{upper}_NOT_CONVERGED` on, the commands are within the limits and the \
+             bounds, and `after` is what is left at them. `{upper}_OK`: {reached} With any other status, nothing is written. \
+             Arrays may overlap: `corrected` may be `q`, and `correction` may be `last`"
+        )
+    };
+    documentation(writer, &routines.description, signature, &own, Some(&end));
+    writer.lines(&format!("{};", head(routines, signature, real, SIZE)));
 }
 
-pub(super) fn definition(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
-    if !routines.has_compensated() {
-        return;
-    }
-    let procedures = compensated(spec, real.precision()).into_iter().map(Procedure::with_loops);
-    let (helpers, cycle) = split(procedures.collect());
+pub(super) fn definitions(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
+    let (helpers, commands) = commands(spec, routines, real.precision());
     let mut printer = CPrinter { writer, routines, real };
-    helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
-    printer.writer.blank();
-    printer.writer.lines(&head(routines, &COMPENSATED, real, SIZE));
-    printer.writer.open_alone();
-    printer.declarations(&cycle, None);
+    if !commands.is_empty() {
+        helpers.into_iter().for_each(|one| printer.helper(&one.clone().with_loops(), one.name, None));
+    }
     let infinity = real.number(f64::INFINITY);
-    let finite = |name: &str, len: usize| format!("are_below({name}, {len}, {infinity}) == 0");
-    let wrong = [finite("last", spec.variables.len()), finite("rotations", 3)].join(" || ");
-    let not_finite = printer.code("NOT_FINITE");
-    printer.writer.lines(&format!("int status = {not_finite};"));
-    printer.leave(&wrong, "status");
-    printer.statements(&cycle.body);
-    writer.lines("return status;");
-    writer.close("}");
+    for (signature, procedure) in commands {
+        printer.writer.blank();
+        printer.writer.lines(&head(routines, signature, real, SIZE));
+        printer.writer.open_alone();
+        let procedure = procedure.with_loops();
+        printer.declarations(&procedure, None);
+        let wrong = signature.arguments.iter().filter(|array| matches!(array.name, "last" | "rotations"));
+        let len = |array: &Array| array.len(&routines.description);
+        let wrong = wrong.map(|one| format!("are_below({}, {}, {infinity}) == 0", one.name, len(one)));
+        let not_finite = printer.code("NOT_FINITE");
+        printer.writer.lines(&format!("int status = {not_finite};"));
+        printer.leave(&wrong.collect::<Vec<_>>().join(" || "), "status");
+        printer.statements(&procedure.body);
+        printer.writer.lines("return status;");
+        printer.writer.close("}");
+    }
 }

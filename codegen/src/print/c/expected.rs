@@ -43,7 +43,7 @@ pub(super) fn expected(
 }
 
 /// A function, the lengths of its results, and the programs that compute them and the margin.
-struct Computed<'m> {
+pub(super) struct Computed<'m> {
     function: Function,
     model: &'m Model,
     lens: Vec<usize>,
@@ -51,7 +51,7 @@ struct Computed<'m> {
 }
 
 impl<'m> Computed<'m> {
-    fn new(function: Function, model: &'m Model) -> Self {
+    pub(super) fn new(function: Function, model: &'m Model) -> Self {
         let (arrays, margin) = results(function, model);
         let lens = arrays.iter().map(Vec::len).collect();
         // The arrays of a tree of frames may read different passive variables.
@@ -63,10 +63,9 @@ impl<'m> Computed<'m> {
         Self { function, model, lens, programs }
     }
 
-    /// Returns the sums with bounds of the rounding errors of the function and of the sum, and of
-    /// those of the generator, which computes with doubles.
-    fn sums(&self, given: &Given, unit: f64) -> Option<Sums> {
-        let Self { function, model, lens, programs } = self;
+    /// Returns the numbers of the results, then the margin, with bounds of their rounding errors.
+    pub(super) fn numbers(&self, given: &Given, unit: f64) -> Vec<Rounded> {
+        let Self { function, model, programs, .. } = self;
         let rounded = |(array, program): (usize, &Program)| {
             // The pose of a step of the compensator is the real one, everything else is nominal.
             let function = match (*function, array) {
@@ -81,7 +80,13 @@ impl<'m> Computed<'m> {
             };
             program.rounded(model.graph.tables(), symbol, unit)
         };
-        let mut numbers = programs.iter().enumerate().flat_map(rounded);
+        programs.iter().enumerate().flat_map(rounded).collect()
+    }
+
+    /// Returns the sums with bounds of the rounding errors of the function and of the sum, and of
+    /// those of the generator, which computes with doubles.
+    fn sums(&self, given: &Given, unit: f64) -> Option<Sums> {
+        let mut numbers = self.numbers(given, unit).into_iter();
         let sum = |len: &usize| {
             let weight = |k: usize| Rounded::exact((k % 7 + 1) as f64, unit);
             let weighted = numbers.by_ref().take(*len).enumerate().map(|(k, number)| weight(k) * number);
@@ -91,7 +96,7 @@ impl<'m> Computed<'m> {
             sum.bound += own * sum.bound + unit * sum.value.abs();
             (*len, sum)
         };
-        let sums: Sums = lens.iter().map(sum).collect();
+        let sums: Sums = self.lens.iter().map(sum).collect();
         let is_finite = sums.iter().all(|(_, sum)| sum.value.is_finite() && sum.bound.is_finite());
         (is_finite && numbers.all(|margin| margin.value >= 0.1)).then_some(sums)
     }

@@ -4,6 +4,7 @@
 //! `procedures` the procedures of the corrected commands, `compensated` their heads, and
 //! `self_test` checks on the target of values that `expected` computes.
 
+mod commands;
 mod compensated;
 mod expected;
 mod functions;
@@ -16,7 +17,7 @@ mod sines;
 mod support;
 
 use abbe_core::compensator::{CHANGE, LARGEST, Status, bound};
-use abbe_core::function::COMPENSATED;
+use abbe_core::function::COMMANDS;
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
@@ -92,12 +93,15 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real, file: &str) -> Str
     counts(&mut writer, &upper, routines);
     indices(&mut writer, &upper, spec);
     values(&mut writer, spec, routines, real, "extern ", false);
-    for signature in routines.signatures().filter(|signature| signature.name != COMPENSATED.name) {
+    for signature in routines.signatures() {
         writer.blank();
+        if COMMANDS.contains(&signature) {
+            compensated::declaration(&mut writer, spec, routines, signature, real);
+            continue;
+        }
         documentation(&mut writer, &routines.description, signature, &[], None);
         writer.lines(&format!("{};", head(routines, signature, real, RESTRICT)));
     }
-    compensated::declaration(&mut writer, spec, routines, real);
     self_test::declaration(&mut writer, spec);
     writer.lines(END);
     writer.finish()
@@ -137,7 +141,7 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real, file
     routines.used_lookup_tables().for_each(|table| lookup_table(&mut writer, routines, table, real));
     ranges(&mut writer, spec, routines, real);
     writer.lines(body.trim_end());
-    compensated::definition(&mut writer, spec, routines, real);
+    compensated::definitions(&mut writer, spec, routines, real);
     self_test::definition(&mut writer, spec, model, routines, &used, real);
     writer.finish()
 }

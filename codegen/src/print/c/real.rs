@@ -51,7 +51,7 @@ impl Real {
     }
 
     /// Returns the precision of the corrected command.
-    pub(super) fn precision(self) -> Precision {
+    pub(crate) fn precision(self) -> Precision {
         [Precision::Double, Precision::Single][self as usize]
     }
 

@@ -3,10 +3,11 @@
 
 use std::collections::BTreeSet;
 
-use abbe_core::function::{Array, COMPENSATED, Signature};
+use abbe_core::function::{Array, COMMANDS, COMPENSATED, Signature};
 use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
+use super::commands::{Call, Commands};
 use super::expected::{Sums, expected};
 use super::procedures::CPrinter;
 use super::real::Real;
@@ -67,10 +68,14 @@ pub(super) fn definition(
         let signature = function.signature();
         (signature, sums.map_or_else(Vec::new, |sums| sums_to(signature, upper, &sums, real)))
     };
-    let cycle = || (&COMPENSATED, is_valid(&routines.description, upper, real));
+    let commands = Commands::new(&routines.description, model, &given, real);
+    let signatures = COMMANDS.into_iter().filter(|signature| routines.exported.contains(&signature.name));
+    let calls: Vec<_> = signatures.map(|signature| (signature, commands.calls(signature))).collect();
+    let numbers = calls.iter().map(|(signature, calls)| {
+        (*signature, is_valid(signature, &routines.description, calls, upper, real))
+    });
     let tested = functions.into_iter().zip(sums).map(conditions);
-    let tested: Vec<(&Signature, Vec<String>)> =
-        tested.chain(routines.has_compensated().then(cycle)).collect();
+    let tested: Vec<(&Signature, Vec<String>)> = tested.chain(numbers).collect();
     let takes =
         |signature: &Signature, name: &str| signature.arguments.iter().any(|array| array.name == name);
     let is_taken = |name: &str| tested.iter().any(|(signature, _)| takes(signature, name));
@@ -108,6 +113,11 @@ pub(super) fn definition(
         let refused = ranges.iter().filter(|(name, _)| takes(signature, name)).map(|(_, range)| &range[..]);
         printer.test(signature, conditions, &refused.collect::<Vec<_>>(), index + 1);
     }
+    let number = tested.len();
+    let cycle = calls.iter().find(|(signature, calls)| **signature == COMPENSATED && !calls.is_empty());
+    if let Some((_, calls)) = cycle {
+        printer.cases(&commands, calls, number);
+    }
     writer.lines("given[at] = kept;");
     writer.close("}");
     writer.lines("return 0;");
@@ -144,7 +154,65 @@ impl CPrinter<'_> {
         }
         self.writer.close("}");
     }
+
+    /// Prints the calls of corrected commands within several bounds.
+    fn cases(&mut self, commands: &Commands<'_>, calls: &[Call], number: usize) {
+        let (description, real) = (&self.routines.description, self.real);
+        let (name, count) = (&description.name, description.variables.len());
+        let upper = name.to_ascii_uppercase();
+        self.comment(
+            "Nothing holds the correction, bounds hold it in several ways, or a command is beyond a limit.",
+        );
+        self.writer.open("if (trial < 0)");
+        for array in ["command", "first", "change", "largest"] {
+            self.writer.lines(&format!("{real} {array}[{count}];"));
+        }
+        let ones = vec![real.number(1.0); 3];
+        self.writer.braces(&format!("{real} rotations[3] = "), &ones, ";");
+        for array in COMPENSATED.results {
+            self.writer.lines(&format!("{real} {}[{}];", array.name, array.len(description)));
+        }
+        let mut list = |name: &str, numbers: Vec<f64>| {
+            let numbers: Vec<String> = numbers.into_iter().map(|number| real.number(number)).collect();
+            let head = format!("static const {real} {name}[{}] = ", numbers.len());
+            self.writer.braces(&head, &numbers, ";");
+        };
+        list("shares", calls.iter().flat_map(|call| call.shares).collect());
+        let sums = || calls.iter().flat_map(|call| &call.sums);
+        list("expected", sums().map(|[sum, _]| *sum).collect());
+        list("tolerances", sums().map(|[_, tolerance]| upwards(*tolerance)).collect());
+        let statuses = calls.iter().map(|call| self.code(call.status.name())).collect::<Vec<_>>();
+        self.writer.braces(&format!("static const int statuses[{}] = ", calls.len()), &statuses, ";");
+        let given = COMPENSATED.arguments.iter().filter(|array| !array.is_empty(description));
+        let given = given.map(|array| match array.name {
+            "q" => "command".to_owned(),
+            "last" => "first".to_owned(),
+            "s" | "u" => format!("given_{}", array.name),
+            other => other.to_owned(),
+        });
+        let results = COMPENSATED.results.iter().map(|array| array.name.to_owned());
+        let call = format!("{name}_compensated({})", given.chain(results).collect::<Vec<_>>().join(", "));
+        let wrong = COMPENSATED.results.iter().enumerate().map(|(i, array)| {
+            let (array, len) = (array.name, array.len(description));
+            format!("sums_to({array}, {len}, expected[(4 * k) + {i}], tolerances[(4 * k) + {i}]) == 0")
+        });
+        let text = [
+            ("CASES", calls.len().to_string()),
+            ("COUNT", count.to_string()),
+            ("JOINT", commands.limited().map_or(0, |(at, _)| at).to_string()),
+            ("CALL", call),
+            ("WRONG", wrong.collect::<Vec<_>>().join(" || ")),
+            ("NUMBER", number.to_string()),
+            ("UPPER", upper),
+            ("NAME", name.to_string()),
+        ];
+        let text = text.iter().fold(CASES.to_owned(), |text, (word, with)| text.replace(word, with));
+        self.writer.lines(text.trim_end());
+        self.writer.close("}");
+    }
 }
+
+const CASES: &str = include_str!("commands.c");
 
 /// Returns angles of both signs in every quadrant, two of them large, then their sines, then their
 /// cosines.
@@ -169,14 +237,26 @@ fn sums_to(signature: &Signature, upper: &str, sums: &Sums, real: Real) -> Vec<S
     [format!("status == {upper}_OK")].into_iter().chain(some.map(sum)).collect()
 }
 
-/// Returns the conditions that the results of the corrected command are finite, and its status one
-/// of those with results.
-fn is_valid(description: &Description, upper: &str, real: Real) -> Vec<String> {
+/// Returns the conditions that the results of a corrected command are finite, and its status one
+/// of those with results; for where one begins, that they are as computed.
+fn is_valid(
+    signature: &Signature,
+    description: &Description,
+    calls: &[Call],
+    upper: &str,
+    real: Real,
+) -> Vec<String> {
     let infinity = real.number(f64::INFINITY);
     let finite =
         |array: &Array| format!("are_below({}, {}, {infinity}) != 0", array.name, array.len(description));
     let status = format!("(status == {upper}_OK || status >= {upper}_NOT_CONVERGED)");
-    COMPENSATED.results.iter().map(finite).chain([status]).collect()
+    let sums = calls.first().filter(|_| *signature != COMPENSATED).into_iter().flat_map(|call| &call.sums);
+    let sum = |(array, [sum, tolerance]): (&Array, &[f64; 2])| {
+        let [sum, tolerance] = [*sum, upwards(*tolerance)].map(|number| real.number(number));
+        format!("sums_to({}, {}, {sum}, {tolerance}) != 0", array.name, array.len(description))
+    };
+    let sums = signature.results.iter().zip(sums).map(sum);
+    signature.results.iter().map(finite).chain([status]).chain(sums).collect()
 }
 
 /// Rounds a bound up to two digits.

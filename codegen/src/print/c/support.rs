@@ -33,7 +33,7 @@ impl Support {
         let programs = routines.programs();
         let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
         let mut used: BTreeSet<Self> = actions.filter_map(Self::for_action).collect();
-        let is_clamped = routines.has_compensated() || routines.used_lookup_tables().next().is_some();
+        let is_clamped = routines.has_commands() || routines.used_lookup_tables().next().is_some();
         used.extend(Some(Self::Clamped).filter(|_| is_clamped));
         if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
             used.insert(Self::SinCos);

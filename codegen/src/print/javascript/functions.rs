@@ -2,7 +2,7 @@
 //!
 //! Corrected commands in JavaScript.
 
-use abbe_core::function::{COMPENSATED, Signature};
+use abbe_core::function::{BEGIN, Signature};
 use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
@@ -10,10 +10,10 @@ use super::operators::JavaScript;
 use super::procedures::{JavaScriptPrinter, one_or_object};
 use crate::print::flat::Flat;
 use crate::print::layout::{Writer, sizes};
-use crate::print::procedure::{Printer, split};
+use crate::print::procedure::{Printer, commands};
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
-use crate::procedure::{Precision, Procedure, compensated as described};
+use crate::procedure::Precision;
 use crate::program::{Role, Routine, Routines};
 
 /// Prints one function.
@@ -80,37 +80,49 @@ pub(super) fn documentation(
 }
 
 pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines) {
-    if !routines.has_compensated() {
+    let (helpers, commands) = commands(spec, routines, Precision::Double);
+    if commands.is_empty() {
         return;
     }
-    let procedures = described(spec, Precision::Double).into_iter().map(Procedure::with_loops);
-    let (helpers, cycle) = split(procedures.collect());
     writer.blank();
     writer.paragraphs(HELPERS);
     let mut printer = JavaScriptPrinter { writer, routines };
-    helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
-    let writer = &mut *printer.writer;
-    writer.blank();
-    writer.lines("/**");
+    helpers.into_iter().for_each(|one| printer.helper(&one.clone().with_loops(), one.name, None));
     let statuses = Precision::Double.statuses();
-    documentation(writer, &routines.description, &COMPENSATED, Some(["status", &statuses]));
-    writer.documentation_line("");
-    writer.documentation(WITHOUT_LAST);
-    writer.lines(" */");
-    writer.open("export function compensated(q, s, u, last, change, largest, rotations = [1, 1, 1])");
-    writer.lines(CHECKS);
-    printer.declarations(&cycle, None);
-    printer.statements(&cycle.body);
-    printer.writer.lines("return { corrected, correction, before, after, status };");
-    printer.writer.close("}");
+    for (signature, procedure) in commands {
+        let (procedure, is_begin) = (procedure.with_loops(), signature.name == BEGIN.name);
+        let writer = &mut *printer.writer;
+        writer.blank();
+        writer.lines("/**");
+        documentation(writer, &routines.description, signature, Some(["status", &statuses]));
+        writer.documentation_line("");
+        if !is_begin {
+            writer.documentation(WITHOUT_LAST);
+        }
+        writer.documentation(THROWS);
+        writer.lines(" */");
+        let further = if is_begin { "" } else { ", last, change, largest" };
+        writer.open(&format!("export function {}(q, s, u{further}, rotations = [1, 1, 1])", signature.name));
+        writer.lines("given(q, s, u);\nchecked('rotations', rotations, 3);");
+        if !is_begin {
+            writer.lines(CHECKS);
+        }
+        printer.declarations(&procedure, None);
+        printer.statements(&procedure.body);
+        let results: Vec<&str> = procedure.results.iter().map(|result| result.name).collect();
+        printer.writer.lines(&format!("return {{ {} }};", results.join(", ")));
+        printer.writer.close("}");
+    }
 }
 
 const HELPERS: &str = include_str!("given.js");
 
 /// Arguments that may be left out.
 const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have any size. With it, `change` and `largest` are \
-     those of `description.variables` if they are left out, and `rotations` is the whole pose. Throws a RangeError if an \
-     argument has another length, a number is not finite or an input is outside its range.";
+     those of `description.variables` if they are left out.";
 
-/// Completes and checks the arguments.
+const THROWS: &str = "Without `rotations`, the whole pose is reached. Throws a RangeError if an argument has another length, \
+     a number is not finite or an input is outside its range.";
+
+/// Completes and checks what only corrected commands take.
 const CHECKS: &str = include_str!("checks.js");

@@ -41,7 +41,7 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     for table in routines.used_lookup_tables() {
         lookup_table(&mut writer, routines, table);
     }
-    if routines.has_compensated() || routines.used_lookup_tables().next().is_some() {
+    if routines.has_commands() || routines.used_lookup_tables().next().is_some() {
         JavaScriptPrinter { writer: &mut writer, routines }.helper(&clamped(), "clamped", None);
     }
     for routine in &routines.list {

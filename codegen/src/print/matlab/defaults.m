@@ -7,6 +7,3 @@ end
 if nargin == 4 || nargin == 5
     largest = CLASS.largest;
 end
-if nargin < 7
-    rotations = [1 1 1];
-end

@@ -1,4 +1,4 @@
-if ~all(isfinite([q(:); s(:); u(:); last(:); rotations(:)]))
+if ~all(isfinite([NUMBERS]))
     error('abbe:finite', 'an argument is not finite');
 end
-[q, last, change, largest] = deal(q(:)', last(:)', change(:)', largest(:)');
+[NAMES] = deal(ROWS);

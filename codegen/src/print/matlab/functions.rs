@@ -2,7 +2,7 @@
 //!
 //! Corrected commands in Matlab.
 
-use abbe_core::function::{self, COMPENSATED, Signature};
+use abbe_core::function::{self, BEGIN, Signature};
 use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
@@ -10,10 +10,10 @@ use super::operators::Matlab;
 use super::procedures::MatlabPrinter;
 use crate::print::flat::Flat;
 use crate::print::layout::{Writer, sizes};
-use crate::print::procedure::{Printer, split};
+use crate::print::procedure::{Printer, commands};
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
-use crate::procedure::{Precision, compensated as described};
+use crate::procedure::Precision;
 use crate::program::{Role, Routines};
 
 /// Prints one function.
@@ -107,32 +107,52 @@ pub(super) fn checks<'a>(writer: &mut Writer, class: &str, given: impl Iterator<
 }
 
 pub(super) fn compensated(writer: &mut Writer, class: &str, spec: &Spec, routines: &Routines) {
-    if !routines.has_compensated() {
+    let (helpers, commands) = commands(spec, routines, Precision::Double);
+    if commands.is_empty() {
         return;
     }
-    let description = &routines.description;
-    let (helpers, cycle) = split(described(spec, Precision::Double));
-    writer.blank();
-    writer.begin(
-        "function [corrected, correction, before, after, status] = compensated(q, s, u, last, change, largest, rotations)",
-    );
-    documentation(writer, description, &COMPENSATED, Some(["status", &Precision::Double.statuses()]));
-    writer.documentation_line("");
-    writer.documentation(WITHOUT_LAST);
-    writer.lines(&DEFAULTS.replace("COUNT", &spec.variables.len().to_string()).replace("CLASS", class));
-    checks(writer, class, COMPENSATED.arguments.iter().map(|array| (array.name, array.len(description))));
-    writer.lines(FINITE.trim_end());
+    let (description, statuses) = (&routines.description, Precision::Double.statuses());
     let mut printer = MatlabPrinter { writer, class, routines };
-    printer.declarations(&cycle, None);
-    printer.statements(&cycle.body);
-    printer.writer.close("end");
+    for (signature, procedure) in commands {
+        let is_begin = signature.name == BEGIN.name;
+        let writer = &mut *printer.writer;
+        writer.blank();
+        let names: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
+        let results: Vec<&str> = procedure.results.iter().map(|result| result.name).collect();
+        let (name, results) = (signature.name, results.join(", "));
+        writer.begin(&format!("function [{results}] = {name}({})", names.join(", ")));
+        documentation(writer, description, signature, Some(["status", &statuses]));
+        writer.documentation_line("");
+        if !is_begin {
+            writer.documentation(WITHOUT_LAST);
+        }
+        writer.documentation(RAISES);
+        let count = spec.variables.len().to_string();
+        let defaults = if is_begin { "" } else { DEFAULTS };
+        writer.lines(&defaults.replace("COUNT", &count).replace("CLASS", class));
+        writer.lines(&format!("if nargin < {}\n    rotations = [1 1 1];\nend", names.len()));
+        checks(writer, class, signature.arguments.iter().map(|array| (array.name, array.len(description))));
+        let each = |names: &[&&str], end: &str| -> Vec<String> {
+            names.iter().map(|name| format!("{name}{end}")).collect()
+        };
+        let finite: Vec<_> = names.iter().filter(|name| !matches!(**name, "change" | "largest")).collect();
+        let rows: Vec<_> = names.iter().filter(|name| !matches!(**name, "s" | "u" | "rotations")).collect();
+        let text = FINITE.replace("NUMBERS", &each(&finite, "(:)").join("; "));
+        let text = text.replace("NAMES", &each(&rows, "").join(", "));
+        writer.lines(text.replace("ROWS", &each(&rows, "(:)'").join(", ")).trim_end());
+        printer.declarations(&procedure, None);
+        printer.statements(&procedure.body);
+        printer.writer.close("end");
+    }
     helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
 }
 
 /// Arguments that may be left out.
 const WITHOUT_LAST: &str = "Without last, no cycle precedes: corrections have any size. With it, change and largest are those \
-     of the class if they are left out, and rotations is the whole pose. Raises an error if an argument has another number \
-     of elements, a number is not finite or an input is outside its range.";
+     of the class if they are left out.";
+
+const RAISES: &str = "Without rotations, the whole pose is reached. Raises an error if an argument has another number of \
+     elements, a number is not finite or an input is outside its range.";
 
 const DEFAULTS: &str = include_str!("defaults.m");
 

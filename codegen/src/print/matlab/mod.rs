@@ -12,7 +12,7 @@ use std::collections::HashSet;
 
 use abbe_core::Description;
 use abbe_core::compensator::{CHANGE, LARGEST, bound};
-use abbe_core::function::COMPENSATED;
+use abbe_core::function::COMMANDS;
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
@@ -72,7 +72,8 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
 fn class_name(spec: &Spec, routines: &Routines) -> String {
     let procedures = described(spec, Precision::Double);
     let arrays = routines.list.iter().flat_map(|routine| &routine.arrays).map(|array| array.name);
-    let signature = COMPENSATED.arguments.iter().chain(COMPENSATED.results).map(|array| array.name);
+    let commands = COMMANDS.iter().flat_map(|one| one.arguments.iter().chain(one.results));
+    let signature = commands.map(|array| array.name);
     let names = [OWN, PROPERTIES, WORDS].into_iter().flat_map(str::split_whitespace).chain(arrays);
     let names = names.chain(signature).chain(routines.list.iter().map(|routine| routine.name));
     let names: HashSet<&str> = names.chain(procedures.iter().flat_map(Procedure::names)).collect();

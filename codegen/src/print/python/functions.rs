@@ -2,7 +2,7 @@
 //!
 //! Corrected commands on NumPy arrays of configurations.
 
-use abbe_core::function::{self, COMPENSATED, Signature};
+use abbe_core::function::{self, BEGIN, Signature};
 use abbe_core::{Description, Quantity};
 use abbe_spec::Spec;
 
@@ -10,10 +10,10 @@ use super::operators::Python;
 use super::procedures::PythonPrinter;
 use crate::print::flat::Flat;
 use crate::print::layout::{Writer, sizes};
-use crate::print::procedure::{Printer, split};
+use crate::print::procedure::{Printer, commands};
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
-use crate::procedure::{Precision, compensated as described};
+use crate::procedure::Precision;
 use crate::program::{Role, Routine, Routines};
 
 /// Prints the public function, which checks shapes and gives the results their documented shapes.
@@ -142,33 +142,45 @@ pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, rout
 }
 
 pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines) {
-    if !routines.has_compensated() {
+    let (helpers, commands) = commands(spec, routines, Precision::Double);
+    if commands.is_empty() {
         return;
     }
     let statuses = Precision::Double.statuses();
-    face(writer, &routines.description, &COMPENSATED, Some(["status", &statuses]), Some(WITHOUT_LAST));
-    let (helpers, cycle) = split(described(spec, Precision::Double));
+    for (signature, _) in &commands {
+        let without = if signature.name == BEGIN.name { "" } else { WITHOUT_LAST };
+        let end = format!("{without}Without `rotations`, the whole pose is reached. {RAISES}");
+        face(writer, &routines.description, signature, Some(["status", &statuses]), Some(&end));
+    }
     writer.blank();
     writer.blank();
     writer.paragraphs(HELPERS);
     let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
     helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
-    let writer = &mut *printer.writer;
-    writer.blank();
-    writer.blank();
-    writer.lines("@np.errstate(divide=\"ignore\", invalid=\"ignore\")");
-    writer.begin("def _compensated(batch, *given):");
-    writer.lines(CHECKS.trim_end());
-    printer.declarations(&cycle, None);
-    printer.statements(&cycle.body);
-    printer.writer.lines("return corrected, correction, before, after, status");
-    printer.writer.end();
+    for (signature, procedure) in commands {
+        let writer = &mut *printer.writer;
+        writer.blank();
+        writer.blank();
+        writer.lines("@np.errstate(divide=\"ignore\", invalid=\"ignore\")");
+        writer.begin(&format!("def _{}(batch, *given):", signature.name));
+        let names: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
+        let finite = names.iter().filter(|name| !matches!(**name, "change" | "largest"));
+        let finite: Vec<String> = finite.map(|name| format!("\"{name}\": {name}")).collect();
+        let checks = CHECKS.replace("NAMES", &names.join(", ")).replace("FINITE", &finite.join(", "));
+        writer.lines(checks.trim_end());
+        printer.declarations(&procedure, None);
+        printer.statements(&procedure.body);
+        let results: Vec<&str> = procedure.results.iter().map(|result| result.name).collect();
+        printer.writer.lines(&format!("return {}", results.join(", ")));
+        printer.writer.end();
+    }
 }
 
 /// Arguments that may be left out.
 const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have any size. With it, `change` and `largest` are \
-     those of the variables in `description` if they are left out, and `rotations` is the whole pose. Raises ValueError if \
-     a number is not finite or an input is outside its range";
+     those of the variables in `description` if they are left out. ";
+
+const RAISES: &str = "Raises ValueError if a number is not finite or an input is outside its range";
 
 /// Sums have the same bits for one configuration and for many.
 const HELPERS: &str = include_str!("dot.py");

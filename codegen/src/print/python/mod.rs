@@ -68,7 +68,7 @@ fn module(spec: &Spec, routines: &Routines, name: &str) -> String {
     writer.blank();
     writer.blank();
     writer.paragraphs(GIVEN);
-    if routines.has_compensated() || routines.used_lookup_tables().next().is_some() {
+    if routines.has_commands() || routines.used_lookup_tables().next().is_some() {
         writer.blank();
         writer.blank();
         writer.lines(CLAMPED);

@@ -52,8 +52,8 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
         Precision::Double.statuses()
     ));
     writer.lines(" *)");
-    let has_compensated = routines.has_compensated();
-    for support in Support::used(spec, routines, has_compensated) {
+    let has_commands = routines.has_commands();
+    for support in Support::used(spec, routines, has_commands) {
         writer.blank();
         match support.described() {
             Some(procedure) => {
@@ -73,7 +73,7 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
     for routine in helpers.into_iter().chain(functions) {
         block(&mut writer, spec, routines, routine, &syntax);
     }
-    if has_compensated {
+    if has_commands {
         procedures::blocks(&mut writer, spec, routines, &syntax.prefix);
     }
     SourceFile { name: format!("{}.st", spec.name), text: writer.finish() }

@@ -7,7 +7,7 @@
 //! Lookup tables in Structured Text: a function for each.
 
 use abbe_core::compensator::{CHANGE, LARGEST, bound};
-use abbe_core::function::COMPENSATED;
+use abbe_core::function::{COMPENSATED, Signature};
 use abbe_core::{Description, LookupTable};
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
@@ -18,8 +18,8 @@ use super::support::Support;
 use crate::print::expression::{Binding, Expression, Value};
 use crate::print::flat::Results;
 use crate::print::layout::{LINE, Writer, escaped, width};
-use crate::print::procedure::{Called, Invocation, Printer, arrays, split};
-use crate::procedure::{Index, Kind, Precision, Procedure, Variable, compensated, look_up};
+use crate::print::procedure::{Called, Invocation, Printer, arrays, commands};
+use crate::procedure::{Index, Kind, Precision, Procedure, Variable, look_up};
 use crate::program::{Routine, Routines};
 
 /// Prints a procedure as a function that returns a number. A guarded one has an argument `fault`,
@@ -236,36 +236,49 @@ impl Printer for BlockPrinter<'_> {
     }
 }
 
-/// Prints the block of corrected commands, and those that it calls.
+/// Prints the blocks of corrected commands and of where they begin, and those that they call.
 pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, prefix: &str) {
-    let procedures = compensated(spec, Precision::Double).into_iter().map(Procedure::with_loops);
-    let (helpers, cycle) = split(procedures.collect());
+    let (helpers, commands) = commands(spec, routines, Precision::Double);
+    let helpers: Vec<Procedure> = helpers.into_iter().map(Procedure::with_loops).collect();
     let mut printer = BlockPrinter { writer, routines, prefix, procedures: &helpers };
     helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
-    let writer = &mut *printer.writer;
-    writer.blank();
-    comment(writer, COMPENSATED.documentation);
-    writer.lines(&format!("FUNCTION_BLOCK {prefix}_compensated"));
-    interface(writer, spec, &routines.description);
-    let kept = Variable { name: "last", kind: Kind::Array(spec.variables.len()) };
-    let sum = Variable { name: "sum", kind: Kind::Real };
-    declarations(writer, &cycle, prefix, &[kept, sum]);
-    let last = spec.variables.len() - 1;
-    writer.lines(BEGIN.replace("LAST", &last.to_string()).replace("PREFIX", prefix).trim_end());
-    printer.statements(&cycle.body);
-    printer.writer.lines("last := correction;\nEND_FUNCTION_BLOCK");
+    for (signature, procedure) in commands {
+        let (procedure, is_cycle) = (procedure.with_loops(), signature.name == COMPENSATED.name);
+        let writer = &mut *printer.writer;
+        writer.blank();
+        comment(writer, signature.documentation);
+        writer.lines(&format!("FUNCTION_BLOCK {prefix}_{}", signature.name));
+        interface(writer, spec, &routines.description, signature);
+        let kept = Variable { name: "last", kind: Kind::Array(spec.variables.len()) };
+        let sum = Variable { name: "sum", kind: Kind::Real };
+        let more = [kept, sum];
+        declarations(writer, &procedure, prefix, if is_cycle { &more } else { &more[1..] });
+        let last = (spec.variables.len() - 1).to_string();
+        for text in [RESUME, ROTATIONS].into_iter().filter(|text| is_cycle || *text == ROTATIONS) {
+            writer.lines(text.replace("LAST", &last).replace("PREFIX", prefix).trim_end());
+        }
+        printer.statements(&procedure.body);
+        if is_cycle {
+            printer.writer.lines("last := correction;");
+        }
+        printer.writer.lines("END_FUNCTION_BLOCK");
+    }
 }
 
-/// Begins anew, and checks what no other block checks.
-const BEGIN: &str = include_str!("begin.st");
+/// Begins where the drives stand.
+const RESUME: &str = include_str!("resume.st");
+
+/// Checks what no other block checks.
+const ROTATIONS: &str = include_str!("rotations.st");
 
 /// Prints inputs and outputs.
-fn interface(writer: &mut Writer, spec: &Spec, description: &Description) {
+fn interface(writer: &mut Writer, spec: &Spec, description: &Description, signature: &Signature) {
     let bounds = |bounds| -> Vec<f64> {
         description.variables.iter().map(|one| bound(description, one.kind, bounds)).collect()
     };
+    let homes: Vec<f64> = description.variables.iter().map(|variable| variable.home).collect();
     section(writer, "VAR_INPUT", |writer| {
-        for array in COMPENSATED.arguments.iter().filter(|array| array.name != "last") {
+        for array in signature.arguments.iter().filter(|array| array.name != "last") {
             let values = match array.name {
                 "change" => bounds(CHANGE),
                 "largest" => bounds(LARGEST),
@@ -278,15 +291,19 @@ fn interface(writer: &mut Writer, spec: &Spec, description: &Description) {
             document(writer, description, array);
             numbers(writer, array.name, &values);
         }
-        comment(writer, RESET);
-        writer.lines("reset : BOOL;");
+        if signature.name == COMPENSATED.name {
+            comment(writer, WHEN);
+            writer.lines("resume : BOOL;");
+            comment(writer, STANDING);
+            numbers(writer, "standing", &homes);
+        }
     });
     section(writer, "VAR_OUTPUT", |writer| {
         comment(writer, OUTPUTS);
-        for array in COMPENSATED.results {
+        for array in signature.results {
             document(writer, description, array);
             let values = match array.name {
-                "corrected" => description.variables.iter().map(|variable| variable.home).collect(),
+                "corrected" | "command" => homes.clone(),
                 _ => vec![0.0; array.len(description)],
             };
             numbers(writer, array.name, &values);
@@ -295,12 +312,13 @@ fn interface(writer: &mut Writer, spec: &Spec, description: &Description) {
     });
 }
 
-const RESET: &str =
-    "TRUE begins anew in each cycle, as if no correction preceded: only while the drives do not move.";
+const WHEN: &str = "TRUE begins anew where the drives stand: set it in each cycle in which they do not move, and in the \
+     first one in which they do. No drive then moves further than change in that cycle.";
+
+const STANDING: &str = "Where the drives stand while resume is TRUE, in the order and the units of q.";
 
 const OUTPUTS: &str = "With the statuses 1 to 3 nothing is written, and the outputs are those of the last valid cycle, at first \
-     the home position. With any other status, the commands are within the limits and the bounds, and after is what is left \
-     at them.";
+     the home position. With any other status, the commands are within the limits, and after is what is left at them.";
 
 /// Prints the function of a table.
 pub(super) fn function(writer: &mut Writer, routines: &Routines, table: &Table, name: &str, prefix: &str) {

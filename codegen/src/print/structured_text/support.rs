@@ -69,7 +69,7 @@ impl Support {
     }
 
     /// Returns the functions that a file uses.
-    pub(super) fn used(spec: &Spec, routines: &Routines, has_compensated: bool) -> BTreeSet<Self> {
+    pub(super) fn used(spec: &Spec, routines: &Routines, has_commands: bool) -> BTreeSet<Self> {
         let programs = routines.programs();
         let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
         let used = actions.filter_map(|action| match action {
@@ -77,8 +77,8 @@ impl Support {
             _ => Self::for_action(action),
         });
         let mut used: BTreeSet<Self> = used.chain([Self::IsWithin]).collect();
-        used.extend(has_compensated.then_some(Self::Arctangent));
-        used.extend((has_compensated || !spec.tables.is_empty()).then_some(Self::Clamped));
+        used.extend(has_commands.then_some(Self::Arctangent));
+        used.extend((has_commands || !spec.tables.is_empty()).then_some(Self::Clamped));
         if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
             used.insert(Self::CosineAndSine);
         }

@@ -5,7 +5,7 @@ use abbe_core::compensator::{CONTRACTION, ITERATIONS, SHORTER, Status};
 use abbe_core::function::COMPENSATED;
 
 use super::departure::departure;
-use super::machine::{HUGE, Machine};
+use super::machine::{HUGE, Machine, weigh};
 use super::variables::Cycle;
 use crate::procedure::build::{Array, Real};
 use crate::procedure::{Body, Condition, Procedure, Value, Whole};
@@ -27,11 +27,7 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         b.evaluate(Function::Pose.name(), q, [target]);
         cycle.measure(b, q);
         b.copy(first, found);
-        b.each("i", [0, 3], |b, i| {
-            b.each("k", [0, 3], |b, k| {
-                b.set(cycle.axes.at(3 * i + k), target.at(3 * i + k) * rotations.at(i));
-            });
-        });
+        weigh(b, cycle.axes, target, rotations);
         let [is_outside, is_elsewhere, is_held] =
             ["is_outside", "is_elsewhere", "is_held"].map(|name| b.flag(name, false));
         let is_inside = b.flag("is_inside", true);
@@ -103,7 +99,7 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         });
         b.copy(before, first);
         b.copy(after, rest);
-        let reached = cycle.distances(b, machine);
+        let reached = machine.reached(b, cycle.axes, cycle.rest);
         let cases = [
             (is_moving.into(), Status::NotConverged),
             (is_held.into(), Status::Held),

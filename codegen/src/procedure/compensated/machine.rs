@@ -6,7 +6,8 @@ use abbe_core::VariableKind;
 use abbe_core::compensator::{DAMPING, LEAST_SINE, LEVER, REACHED, REST, Status};
 use abbe_spec::Spec;
 
-use crate::procedure::{Procedure, Value};
+use crate::procedure::build::Array;
+use crate::procedure::{Body, Condition, Procedure, Value};
 
 /// Precision of the corrected command, with the tolerances that depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,6 +82,26 @@ impl Machine<'_> {
         let unit = |kind: VariableKind| kind.either(1.0, self.metre);
         self.spec.variables.iter().map(|variable| unit(variable.kind)).collect()
     }
+
+    /// Declares the limits of the variables.
+    pub(super) fn limits(&self, b: &mut Body<'_>) -> [Array; 2] {
+        [("lower_limits", 0), ("upper_limits", 1)].map(|(name, end)| {
+            let limits: Vec<f64> = self.spec.variables.iter().map(|one| one.limits[end]).collect();
+            b.constant(name, &limits)
+        })
+    }
+
+    /// Returns the condition that the position and the weighted rotations are reached.
+    pub(super) fn reached(&self, b: &mut Body<'_>, axes: Array, left: Array) -> Condition {
+        let weights = b.array("weights", 6);
+        let [far, angle] = ["far", "angle"].map(|name| b.real(name));
+        b.call("weighted", [axes, left], weights);
+        b.set(far, weights.dot(weights, [0, 3], |k| [k, k]).sqrt());
+        b.set(angle, weights.dot(weights, [3, 6], |k| [k, k]).sqrt());
+        let [position, rotation] = self.precision.tolerances().reached;
+        let is_near = Value::from(position).is_at_least(far);
+        is_near.and(Value::from(rotation * LEVER).is_at_least(angle))
+    }
 }
 
 /// Largest number that bounds may have: sums of it are finite.
@@ -140,6 +161,15 @@ pub(super) fn cost() -> Procedure {
         b.call("weighted", [axes, rows], weights);
         b.set(squares, weights.dot(weights, [0, 6], |k| [k, k]));
     })
+}
+
+/// Computes the axes of the tool, multiplied by the weights of the rotations about them.
+pub(super) fn weigh(b: &mut Body<'_>, axes: Array, target: Array, rotations: Array) {
+    b.each("i", [0, 3], |b, i| {
+        b.each("k", [0, 3], |b, k| {
+            b.set(axes.at(3 * i + k), target.at(3 * i + k) * rotations.at(i));
+        });
+    });
 }
 
 /// Returns a number that is not negative, and 0 for NaN.

@@ -2,8 +2,9 @@
 //!
 //! `machine` measures how far the real pose is from the ideal one, `shortest` and `single` solve
 //! for the shortest step (in double and in single precision), which `departure` takes within the
-//! bounds, `variables` has the intervals, and `cycle` is the algorithm.
+//! bounds, `variables` has the intervals, and `cycle` is the algorithm. `begin` is its inverse.
 
+mod begin;
 mod cycle;
 mod departure;
 mod machine;
@@ -17,7 +18,8 @@ use self::machine::Machine;
 pub use self::machine::Precision;
 use super::Procedure;
 
-/// Returns the procedures of the corrected command, each behind those that it calls.
+/// Returns the procedures of the corrected command and of its inverse, which come last, each behind
+/// those that it calls.
 pub fn compensated(spec: &Spec, precision: Precision) -> Vec<Procedure> {
     let (count, metre) = (spec.variables.len(), 1.0 / spec.length.in_metres());
     let machine = Machine { spec, precision, count, metre };
@@ -30,6 +32,7 @@ pub fn compensated(spec: &Spec, precision: Precision) -> Vec<Procedure> {
         machine::weighted(&machine),
         machine::cost(),
         shortest,
+        begin::begin(&machine),
         cycle::cycle(&machine),
     ]
 }

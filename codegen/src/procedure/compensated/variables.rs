@@ -1,11 +1,10 @@
 //! Variables of a cycle, the intervals of the joints, and what is left.
 
 use abbe_core::Function;
-use abbe_core::compensator::LEVER;
 
 use super::machine::{Machine, positive};
 use crate::procedure::build::{Array, Real};
-use crate::procedure::{Body, Condition, Value};
+use crate::procedure::{Body, Value};
 
 /// Variables of the algorithm.
 pub(super) struct Cycle {
@@ -66,9 +65,7 @@ impl Cycle {
         machine: &Machine<'_>,
         [q, last, change, largest]: [Array; 4],
     ) {
-        let ends = |end: usize| machine.spec.variables.iter().map(move |one| one.limits[end]);
-        let lower_limits = b.constant("lower_limits", &ends(0).collect::<Vec<_>>());
-        let upper_limits = b.constant("upper_limits", &ends(1).collect::<Vec<_>>());
+        let [lower_limits, upper_limits] = machine.limits(b);
         let [bound, widest] = ["bound", "widest"].map(|name| b.real(name));
         b.each("j", [0, machine.count], |b, j| {
             let within = |value: Value| value.clamped(lower_limits.at(j), upper_limits.at(j));
@@ -84,17 +81,5 @@ impl Cycle {
                 b.set(end.at(j), within(end.at(j)));
             }
         });
-    }
-
-    /// Returns the condition that the position and the weighted rotations are reached.
-    pub(super) fn distances(&self, b: &mut Body<'_>, machine: &Machine<'_>) -> Condition {
-        let weights = b.array("weights", 6);
-        let [far, angle] = ["far", "angle"].map(|name| b.real(name));
-        b.call("weighted", [self.axes, self.rest], weights);
-        b.set(far, weights.dot(weights, [0, 3], |k| [k, k]).sqrt());
-        b.set(angle, weights.dot(weights, [3, 6], |k| [k, k]).sqrt());
-        let [position, rotation] = machine.precision.tolerances().reached;
-        let is_near = Value::from(position).is_at_least(far);
-        is_near.and(Value::from(rotation * LEVER).is_at_least(angle))
     }
 }

@@ -46,6 +46,13 @@ impl<const N: usize> Cycle<[f64; N]> {
         };
         Self { last: [0.0; N], change: each(CHANGE), largest: each(LARGEST), rotations: [1.0; 3] }
     }
+
+    /// Begins anew where the drives stand, at the start and after a stop: the next cycle, with
+    /// `command`, moves none of them further than its `change`, however far the command is from
+    /// them.
+    pub fn resume(&mut self, command: &[f64; N], drives: &[f64; N]) {
+        self.last = core::array::from_fn(|j| drives[j] - command[j]);
+    }
 }
 
 /// Returns a bound in rad and metres in the unit of a variable.

@@ -279,7 +279,7 @@ macro_rules! function_array {
         )
     };
     (last: $($then:tt)+) => {
-        $crate::function_array!(of_corrections "last", "`correction` of the previous cycle; zeros at first.": $($then)+)
+        $crate::function_array!(of_corrections "last", "`correction` of the previous cycle; at first `last` of `begin`, or zeros.": $($then)+)
     };
     (change: $($then:tt)+) => {
         $crate::function_array!(of_corrections "change", "Largest change of each correction from `last`. A number that is not positive permits none.": $($then)+)
@@ -305,6 +305,21 @@ macro_rules! function_array {
     };
     (after: $($then:tt)+) => {
         $crate::function_array!(deviation "after", "ΔX at `corrected`, in the form of `before`.": $($then)+)
+    };
+    (command: $($then:tt)+) => {
+        $($then)+!(
+            "command",
+            Variables,
+            [f64; VARIABLES],
+            "length unit, rad",
+            "Command whose corrected one is `q`, in the same order."
+        )
+    };
+    (first: $($then:tt)+) => {
+        $crate::function_array!(of_corrections "last", "`q` minus `command`: `last` of the first cycle.": $($then)+)
+    };
+    (left: $($then:tt)+) => {
+        $crate::function_array!(deviation "after", "ΔX of the ideal pose at `command`, minus the real one at `q`: position of the tool point in `F_0`, then rotation vector.": $($then)+)
     };
     (of_corrections $name:literal, $documentation:literal: $($then:tt)+) => {
         $($then)+!($name, Corrections, [f64; VARIABLES], "length unit, rad", $documentation)
@@ -393,4 +408,12 @@ pub const COMPENSATED: super::Signature = signature!(
          next no variable moves further than its command and `change`. At most 6 steps are made, which solve at most 8 \
          systems of equations for each variable and 8 more. If the pose cannot be reached, the position has priority over \
          the orientation."
+);
+
+/// Signature of `begin` in generated code, as [`begin`](crate::compensator::begin) computes it. In
+/// addition to its results it returns a [`Status`](crate::compensator::Status).
+pub const BEGIN: super::Signature = signature!(
+    begin(q, s, u, rotations) -> (command, first, left):
+        "The command that the drives carry out where they stand, at `q`: the ideal tool is there where the real one is. A path \
+         that begins there with `last` moves none of them. Within the limits of the variables."
 );

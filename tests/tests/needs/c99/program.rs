@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use abbe::function::{COMPENSATED, Signature};
+use abbe::function::{COMMANDS, Signature};
 use abbe::{Function, Manipulator};
 use abbe_codegen::print::{Language, Real, SourceFile};
 use abbe_interpreter::Interpreter;
@@ -103,7 +103,7 @@ pub(crate) fn caller(robot: &Interpreter, real: Real) -> String {
             written.collect::<String>()
         )
     };
-    let functions = functions(robot).into_iter().map(Function::signature).chain([&COMPENSATED]);
+    let functions = functions(robot).into_iter().map(Function::signature).chain(COMMANDS);
     format!(
         "#include \"{name}.h\"\n#include <stdio.h>\n\
          static void put_one(double number) {{ fwrite(&number, sizeof number, 1, stdout); }}\n\

@@ -6,6 +6,7 @@ use std::process::Command;
 
 use abbe::analysis::sampling::{arm_length, nominal_parameters};
 use abbe::compensator::norms;
+use abbe::function::BEGIN;
 use abbe::{Function, Manipulator, Orientation, Pose, deviation};
 use abbe_codegen::print::{Language, Real};
 use abbe_interpreter::Interpreter;
@@ -70,6 +71,9 @@ fn differences(spec: &Spec, given: Vec<Vec<f64>>) -> Differences {
                     found.compare(function, k, &a, &b);
                 }
             }
+        }
+        for numbers in [&mut double, &mut single] {
+            numbers.nth(BEGIN.results_len(robot.description()));
         }
         let q = &given[..robot.description().variables.len()];
         let of = |numbers: &mut std::vec::IntoIter<f64>| {
@@ -395,3 +399,45 @@ pub(crate) fn self_tests() -> Result<(), Missing> {
     }
     Ok(())
 }
+
+/// Inverse kinematics in both precisions finds the joints of every pose, at limits and in the
+/// middle of them, as exactly as the numbers permit.
+pub(crate) fn poses_have_their_joints() -> Result<(), Missing> {
+    tool("cc", "")?;
+    for shipped in SHIPPED.iter().filter(|shipped| is_tested(shipped.name)) {
+        let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
+        let robot = Interpreter::new(spec.clone());
+        let description = robot.description();
+        if description.solutions == 0 || description.has_loops() {
+            continue;
+        }
+        for real in Real::ALL {
+            let folder = tempfile::tempdir().unwrap();
+            write(folder.path(), &spec, real);
+            let name = &spec.name;
+            let parameters = if spec.parameters.is_empty() { "" } else { "NAME_parameters," };
+            let text = INVERSE
+                .replace("PARAMETERS", parameters)
+                .replace("REAL", real.name())
+                .replace("COUNT", &sample_size(40_000).to_string())
+                .replace(
+                    "SIZE",
+                    &format!("{:e}", arm_length(&robot, &nominal_parameters(description)).unwrap()),
+                )
+                .replace("UPPER", &name.to_ascii_uppercase())
+                .replace("NAME", name);
+            let [source, program] = ["inverse.c", "inverse"].map(|file| folder.path().join(file));
+            fs::write(&source, text).unwrap();
+            compiled(&["cc"], &program, &[&source, &folder.path().join(format!("{name}.c"))]);
+            let run = Command::new(&program).output().unwrap();
+            let printed = String::from_utf8(run.stdout).unwrap();
+            println!("{name} {}: {printed}", real.name());
+            let numbers: Vec<f64> = printed.split_whitespace().map(|word| word.parse().unwrap()).collect();
+            let bound = if real == Real::Double { 1e-10 } else { 5e-5 };
+            assert!(numbers[0] == 0.0 && numbers[1] <= bound, "{name} {}: {printed}", real.name());
+        }
+    }
+    Ok(())
+}
+
+const INVERSE: &str = include_str!("inverse.c");

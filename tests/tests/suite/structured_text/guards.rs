@@ -156,7 +156,8 @@ fn random_commands_stop_nothing() {
             let q: Vec<f64> =
                 limits.clone().map(|[lower, upper]| command(lower, upper, &mut random)).collect();
             block.set("q", &q);
-            block.set("reset", &[f64::from(u8::from(index % 5 == 0))]);
+            block.set("resume", &[f64::from(u8::from(index % 5 == 0))]);
+            block.set("standing", &limits.clone().map(|[_, upper]| far * upper).collect::<Vec<_>>());
             block.set("rotations", &[1.0, (index % 2) as f64, (index % 3) as f64]);
             block.call().unwrap_or_else(|fault| panic!("{name} at {q:?} stops the controller: {fault}"));
             for (value, [lower, upper]) in block.get("corrected").iter().zip(limits) {

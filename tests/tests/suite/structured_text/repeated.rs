@@ -1,7 +1,7 @@
 //! Outputs and variables of a block persist from call to call: whatever was computed before, a call
 //! gives what the first call of a new instance gives.
 
-use abbe::function::{COMPENSATED, Signature};
+use abbe::function::{COMMANDS, COMPENSATED, Signature};
 use abbe::{Description, Function, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{MECHANISMS, SHIPPED};
@@ -29,7 +29,9 @@ fn called(
         rest = others;
     }
     if signature.name == COMPENSATED.name {
-        instance.set("reset", &[1.0]);
+        instance.set("resume", &[1.0]);
+        let q = instance.get("q");
+        instance.set("standing", &q);
     }
     instance.call().unwrap_or_else(|fault| panic!("{} stops the controller: {fault}", signature.name));
     let status = instance.get("status")[0];
@@ -44,7 +46,7 @@ fn assert_forgets(spec: Spec, count: usize) {
     let robot = Interpreter::new(spec);
     let description = robot.description();
     let given = configurations(&robot, count);
-    let commands = Some(&COMPENSATED).filter(|_| !description.variables.is_empty());
+    let commands = COMMANDS.into_iter().filter(|_| !description.variables.is_empty());
     for signature in Function::all(description).map(Function::signature).chain(commands) {
         let name = format!("{prefix}_{}", signature.name);
         let mut used = program.instance(&name);
