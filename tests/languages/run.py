@@ -23,6 +23,9 @@ arguments, at = {}, 0
 for name, shape in shapes.items():
     count = int(np.prod(shape))
     arguments[name] = rows[:, at : at + count].reshape((len(rows), *shape))
+    if name == "target":
+        # A pose is given as `pose` returns it.
+        arguments[name] = np.swapaxes(arguments[name], -1, -2)
     at += count
 
 results = []
@@ -44,6 +47,12 @@ for name, taken, filled in names["functions"]:
         nominal = nominal[0] if isinstance(nominal, tuple) else nominal
         assert np.array_equal(nominal, arrays[0], equal_nan=True), f"{name}: nominal parameters"
 np.concatenate(results, axis=1).astype(float).tofile(output)
+
+# The inverse takes what `pose` returns, of one configuration and of many.
+if hasattr(robot, "inverse"):
+    for q in (arguments["q"], arguments["q"][0]):
+        solutions = robot.inverse(q, None, robot.pose(q))[0]
+        assert solutions.shape[:-2] == q.shape[:-1], solutions.shape
 
 # Another shape is told, not computed with.
 try:

@@ -37,6 +37,22 @@ Status correct(const std::vector<double> &q, std::vector<double> &drives)
     return Status::corrected;
 }
 
+Status begin(const std::vector<double> &drives, std::vector<double> &q)
+{
+    if (drives.size() != PPS_VARIABLES) {
+        return Status::failed;
+    }
+    double command[PPS_VARIABLES];
+    double last[PPS_VARIABLES];
+    double after[6];
+    const int status = pps_begin(drives.data(), pps_parameters, pps_inputs, pps_whole_pose, command, last, after);
+    if (status != PPS_OK) {
+        return status >= PPS_NOT_CONVERGED ? Status::not_reached : Status::failed;
+    }
+    q.assign(command, command + PPS_VARIABLES);
+    return Status::corrected;
+}
+
 Joints::Joints(std::vector<std::string> names, std::vector<double> scales)
     : names_(std::move(names)), scales_(std::move(scales))
 {
@@ -46,6 +62,17 @@ Joints::Joints(std::vector<std::string> names, std::vector<double> scales)
 }
 
 Status Joints::correct(const std::vector<std::string> &names, std::vector<double> &positions) const
+{
+    return replace(machine::correct, names, positions);
+}
+
+Status Joints::begin(const std::vector<std::string> &names, std::vector<double> &positions) const
+{
+    return replace(machine::begin, names, positions);
+}
+
+Status Joints::replace(Status (*by)(const std::vector<double> &, std::vector<double> &),
+                       const std::vector<std::string> &names, std::vector<double> &positions) const
 {
     std::vector<std::size_t> places;
     std::vector<double> q;
@@ -58,10 +85,10 @@ Status Joints::correct(const std::vector<std::string> &names, std::vector<double
         places.push_back(place);
         q.push_back(positions[place] * scales_[i]);
     }
-    std::vector<double> drives;
-    const Status status = machine::correct(q, drives);
-    for (std::size_t i = 0; i < drives.size(); ++i) {
-        positions[places[i]] = drives[i] / scales_[i];
+    std::vector<double> others;
+    const Status status = by(q, others);
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        positions[places[i]] = others[i] / scales_[i];
     }
     return status;
 }

@@ -22,6 +22,9 @@ int joints();
 /// If it is possible, computes drive commands, in the spec's units and order, that put the real tool where the ideal one is at `q`.
 Status correct(const std::vector<double> &q, std::vector<double> &drives);
 
+/// Inverse of `correct`: computes the commands that the drives carry out where they stand.
+Status begin(const std::vector<double> &drives, std::vector<double> &q);
+
 /// Returns whether this compiler, its library and this processor reproduce the generator's results.
 bool self_test();
 
@@ -35,7 +38,13 @@ class Joints {
     /// `corrected`.
     Status correct(const std::vector<std::string> &names, std::vector<double> &positions) const;
 
+    /// Replaces measured positions by the commands that belong to them; the rest as in `correct`.
+    Status begin(const std::vector<std::string> &names, std::vector<double> &positions) const;
+
   private:
+    Status replace(Status (*by)(const std::vector<double> &, std::vector<double> &),
+                   const std::vector<std::string> &names, std::vector<double> &positions) const;
+
     std::vector<std::string> names_;
     std::vector<double> scales_;
 };

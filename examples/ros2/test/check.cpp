@@ -1,4 +1,5 @@
-// Prints the corrected command of one point, joints in another order than the spec's and slides in metres.
+// Prints the corrected command of one point and compares its inverse, joints in another order than the spec's and slides in metres.
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -13,6 +14,17 @@ int main()
     std::vector<double> positions{0.3, 0.5, 0.01, -0.02, 0.4, 0.2};
     if (!machine::self_test() || joints.correct(message, positions) != machine::Status::corrected) {
         return 1;
+    }
+    // The drives carry out the command that was corrected.
+    const std::vector<double> command{0.3, 0.5, 0.01, -0.02, 0.4, 0.2};
+    std::vector<double> back = positions;
+    if (joints.begin(message, back) != machine::Status::corrected) {
+        return 1;
+    }
+    for (std::size_t i = 0; i < message.size(); ++i) {
+        if (std::fabs(back[i] - command[i]) > 1e-9) {
+            return 1;
+        }
     }
     for (std::size_t i = 0; i < message.size(); ++i) {
         std::printf("%s %.17g\n", message[i].c_str(), positions[i]);

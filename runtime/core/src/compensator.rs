@@ -51,6 +51,10 @@ pub const CONTRACTION: f64 = 0.5;
 /// Largest step of a converged iteration, in rad and metres.
 pub const REST: f64 = 1e-10;
 
+/// Share of a command by which it may be beyond a limit: rounding errors of a limit that was
+/// converted from degrees.
+pub const AT_LIMIT: f64 = 4.0 * f64::EPSILON;
+
 /// Metres that weigh as much as one rad. The small value gives the position of the tool point
 /// priority.
 pub const LEVER: f64 = 1e-3;
@@ -128,7 +132,7 @@ where
         (best, left) = (start.clone(), before);
     }
     let status = match () {
-        () if bounds.command.as_ref() != start.as_ref() => Status::OutsideLimits,
+        () if bounds.are_beyond(start.as_ref()) => Status::OutsideLimits,
         () if problem.is_reached(&left) => Status::Reached,
         () if bounds.hold(best.as_ref()) => Status::Held,
         () if is_moving => Status::NotConverged,
@@ -231,6 +235,12 @@ impl<Q: Clone + AsRef<[f64]> + AsMut<[f64]>> Bounds<Q> {
 
     fn contain(&self, q: &[f64]) -> bool {
         q.iter().enumerate().all(|(j, value)| self.clamped(j, *value) == *value)
+    }
+
+    /// Returns `true` if a command is beyond the limits, and not by rounding.
+    fn are_beyond(&self, start: &[f64]) -> bool {
+        let mut both = start.iter().zip(self.command.as_ref());
+        both.any(|(q, nearest)| Scalar::abs(nearest - q) > AT_LIMIT * Scalar::abs(*q))
     }
 
     /// Returns `true` if a joint is at an end of its interval.

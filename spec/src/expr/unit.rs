@@ -87,7 +87,7 @@ impl Unit {
         })
     }
 
-    /// Converts a number in this unit to coherent units: rounded once, and exact if nothing
+    /// Converts a number in this unit to coherent units: with its decimals, and exact if nothing
     /// changes.
     pub fn convert(self, number: f64, length: LengthUnit) -> f64 {
         let decades = self.decades + decades_per_metre(length) * self.dimension.length_exponent();
@@ -100,8 +100,16 @@ impl Unit {
                 number / std::f64::consts::PI * 180.0
             };
         }
-        if decades >= 0 { number * 10_f64.powi(decades) } else { number / 10_f64.powi(-decades) }
+        shifted(number, decades)
     }
+}
+
+/// Moves the decimal point of a number: 0.1133 m are 113.3 mm, not 113.29999999999998.
+fn shifted(number: f64, decades: i32) -> f64 {
+    let text = format!("{number:e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let exponent = exponent.parse::<i32>().unwrap_or(0).saturating_add(decades);
+    format!("{digits}e{exponent}").parse().unwrap_or(number)
 }
 
 /// Returns the power of ten by which a number in metres is multiplied.

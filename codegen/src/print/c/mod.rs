@@ -270,7 +270,7 @@ fn values(
     let largest = by_default("Largest correction", LARGEST);
     let limits = pairs(variables.clone().map(|one| one.limits).collect());
     let home = ones(variables.map(|one| one.home).collect());
-    let rotations = ones(vec![1.0; if has_compensated { 3 } else { 0 }]);
+    let rotations = ones(vec![1.0; if routines.has_commands() { 3 } else { 0 }]);
     let parameters = ones(parameters.map(|one| one.value).collect());
     let nominal = ones(inputs.clone().map(|one| one.value).collect());
     let ranges = pairs(inputs.map(|one| one.range).collect());

@@ -38,7 +38,9 @@ pub(super) fn face(
     writer.begin(&format!("def {name}({}):", arguments.join(", ")));
     documentation(writer, description, signature, behind, end);
     let shape = |array: &function::Array| tuple(&sizes(array, description));
-    let given = signature.arguments.iter().map(|array| format!("{0}=({0}, {1})", array.name, shape(array)));
+    let given =
+        |array: &function::Array| format!("{0}=({0}, {1})", array.name, tuple(&shown(array, description)));
+    let given = signature.arguments.iter().map(given);
     let names: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
     let names = names.join(", ");
     writer.lines(&format!("batch, {names} = _given({})", given.collect::<Vec<_>>().join(", ")));
@@ -74,6 +76,16 @@ fn is_matrix(array: &function::Array) -> bool {
     array.quantity == Quantity::Pose || array.name == "columns"
 }
 
+/// Returns the sizes of an array as users see them: rows before columns.
+fn shown(array: &function::Array, description: &Description) -> Vec<String> {
+    let mut shape = sizes(array, description);
+    if is_matrix(array) {
+        let last = shape.len() - 1;
+        shape.swap(last - 1, last);
+    }
+    shape
+}
+
 fn documentation(
     writer: &mut Writer,
     description: &Description,
@@ -85,12 +97,7 @@ fn documentation(
     writer.documentation(signature.documentation);
     writer.documentation_line("");
     let shape = |array: &function::Array| {
-        let mut shape = sizes(array, description);
-        if is_matrix(array) {
-            let last = shape.len() - 1;
-            shape.swap(last - 1, last);
-        }
-        format!("Shape (..., {}). Unit: {}.", shape.join(", "), array.unit)
+        format!("Shape (..., {}). Unit: {}.", shown(array, description).join(", "), array.unit)
     };
     for array in signature.arguments {
         writer.documentation(&format!("{}: {} {}", array.name, array.documentation, shape(array)));

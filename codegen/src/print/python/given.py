@@ -17,6 +17,9 @@ def _given(**arguments):
         if leading < 0 or array.shape[leading:] != shape:
             expected = ", ".join(map(str, ("...", *shape)))
             raise ValueError(f"{name}: expected shape ({expected}), found {array.shape}")
+        if name == "target":
+            # A pose is flat by its columns.
+            array = array.swapaxes(-1, -2)
         count = int(np.prod(shape))
         flat.append(_numbers_first(array.reshape(array.shape[:leading] + (count,))))
     for value, record in zip(flat[2] if "u" in arguments else [], description["inputs"]):

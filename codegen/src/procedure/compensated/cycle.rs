@@ -34,7 +34,8 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         cycle.bound(b, machine, [q, last, change, largest]);
         b.each("j", [0, count], |b, j| {
             b.set(present.at(j), (command.at(j) + last.at(j)).clamped(lower.at(j), upper.at(j)));
-            b.when(command.at(j).differs(q.at(j)), |b| b.set_flag(is_outside, true));
+            let slack = q.at(j).abs() * machine.precision.tolerances().at_limit;
+            b.when((command.at(j) - q.at(j)).abs().exceeds(slack), |b| b.set_flag(is_outside, true));
             let beyond = lower.at(j).exceeds(q.at(j)).or(q.at(j).exceeds(upper.at(j)));
             b.when(beyond, |b| b.set_flag(is_inside, false));
             b.when(present.at(j).differs(q.at(j)), |b| b.set_flag(is_elsewhere, true));

@@ -3,7 +3,7 @@
 //! Error of a pose, its weights, and its cost.
 
 use abbe_core::VariableKind;
-use abbe_core::compensator::{DAMPING, LEAST_SINE, LEVER, REACHED, REST, Status};
+use abbe_core::compensator::{AT_LIMIT, DAMPING, LEAST_SINE, LEVER, REACHED, REST, Status};
 use abbe_spec::Spec;
 
 use crate::procedure::build::Array;
@@ -25,6 +25,8 @@ pub(crate) struct Tolerances {
     pub(super) damping: f64,
     /// Step size for convergence, in radians and metres.
     pub(super) rest: f64,
+    /// Share of a command by which it may be beyond a limit.
+    pub(super) at_limit: f64,
     /// Largest error of a pose that is reached: position in metres, rotation in rad. In single
     /// precision a pose is accurate to about 1e-6 m, which a singular value of 0.1 amplifies to
     /// 1e-5.
@@ -38,12 +40,20 @@ impl Precision {
     /// Returns the tolerances of the precision.
     pub(crate) fn tolerances(self) -> Tolerances {
         match self {
-            Self::Double => {
-                Tolerances { damping: DAMPING, rest: REST, reached: REACHED, least_sine: LEAST_SINE }
-            }
-            Self::Single => {
-                Tolerances { damping: DAMPING.sqrt(), rest: 1e-5, reached: [1e-5; 2], least_sine: 1e-18 }
-            }
+            Self::Double => Tolerances {
+                damping: DAMPING,
+                rest: REST,
+                at_limit: AT_LIMIT,
+                reached: REACHED,
+                least_sine: LEAST_SINE,
+            },
+            Self::Single => Tolerances {
+                damping: DAMPING.sqrt(),
+                rest: 1e-5,
+                at_limit: 4.0 * f64::from(f32::EPSILON),
+                reached: [1e-5; 2],
+                least_sine: 1e-18,
+            },
         }
     }
 

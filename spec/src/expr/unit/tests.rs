@@ -34,6 +34,22 @@ fn conversions_are_exact_where_they_can_be() {
     assert_eq!(convert(324_000.0, "arcsec", LengthUnit::Metre), right);
 }
 
+/// A decimal keeps its digits in every unit that differs by a power of ten.
+#[test]
+fn decimals_are_kept() {
+    for (name, decades) in [("m", 3), ("cm", 1), ("mm", 0), ("um", -3), ("nm", -6)] {
+        let unit = Unit::named(name).unwrap();
+        for (length, more) in [(LengthUnit::Millimetre, 0), (LengthUnit::Metre, -3)] {
+            for number in (1..20_000).step_by(7) {
+                let found = unit.convert(f64::from(number) / 1e4, length);
+                let exact: f64 = format!("{number}e{}", decades + more - 4).parse().unwrap();
+                assert_eq!(found.to_bits(), exact.to_bits(), "{number} {name}");
+            }
+        }
+    }
+    assert_eq!(Unit::named("m").unwrap().convert(0.1133, LengthUnit::Millimetre), 113.3);
+}
+
 #[test]
 fn factors_of_products_are_exact_too() {
     let inch = Unit::named("inch").unwrap();

@@ -42,6 +42,12 @@ int main(void)
             double from[PPS_VARIABLES];
             memcpy(from, controller.drives, sizeof from);
             at(stop / 200.0 + k / 2000.0, q);
+            /* The nearest joints of a pose are those of the path. */
+            double pose[12];
+            double joints[PPS_VARIABLES];
+            REQUIRE(pps_pose(q, pps_parameters, pose) == PPS_OK);
+            REQUIRE(commanded((k == 0) ? q : before, pose, joints) == 1);
+            REQUIRE(moved(q, joints, q, q) < 1e-6);
             REQUIRE(cycle(&controller, q) == 0);
             REQUIRE(moved(from, controller.drives, q, (k == 0) ? q : before) <= 1.0 + 1e-9);
             memcpy(before, q, sizeof before);

@@ -447,6 +447,13 @@ fn commands_beyond_limits_have_a_status() {
         assert_eq!(done.status, Status::OutsideLimits);
         machine.check(&q, &cycle, &done);
     }
+    // At a limit, a unit in the last place is rounding.
+    let upper = machine.limits(5)[1];
+    for (far, is_outside) in [(upper.next_up(), false), (upper, false), (upper + 1e-9, true)] {
+        let q = [0.1, -1.0, 1.2, -0.5, 0.8, far];
+        let done = machine.corrected(&q, &machine.first([1.0; 3])).unwrap();
+        assert_eq!(done.status == Status::OutsideLimits, is_outside, "{far}");
+    }
 }
 
 /// A wrist passes through its singular pose, and an elbow its stretched one: the wrist of a UR5
