@@ -9,7 +9,7 @@ pub use signature::{Array, Count, Signature};
 pub use table::{BEGIN, COMPENSATED};
 
 /// Signatures of the functions that are no functions of nodes, but iterations with others.
-pub const COMMANDS: [&Signature; 2] = [&BEGIN, &COMPENSATED];
+pub const COMMANDS: [&Signature; 2] = [&COMPENSATED, &BEGIN];
 
 macro_rules! functions {
     (: $($function:ident = $name:ident($($argument:ident),+) -> ($($result:ident),+) $($oriented:ident)?:

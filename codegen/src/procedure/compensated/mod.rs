@@ -32,7 +32,7 @@ pub fn compensated(spec: &Spec, precision: Precision) -> Vec<Procedure> {
         machine::weighted(&machine),
         machine::cost(),
         shortest,
-        begin::begin(&machine),
         cycle::cycle(&machine),
+        begin::begin(&machine),
     ]
 }

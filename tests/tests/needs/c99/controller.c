@@ -53,7 +53,7 @@ int main(void)
             memcpy(before, q, sizeof before);
         }
         memcpy(standing, controller.drives, sizeof standing);
-        q[stop % 6] = (stop % 3 == 0) ? NAN : (stop % 3 == 1) ? -1e4 : HUGE_VAL;
+        q[stop % 6] = (stop % 3 == 0) ? (double)NAN : (stop % 3 == 1) ? -1e4 : HUGE_VAL;
         const int fault = cycle(&controller, q);
         REQUIRE(fault != 0);
         /* Nothing but `resume` ends the fault, whatever the command is. */

@@ -159,7 +159,7 @@ fn the_code_of_the_chapter_keeps_its_bounds() -> Result<(), Missing> {
     succeeds(
         Command::new("cc")
             .args(STRICT)
-            .args(["-ffp-contract=off", "-o"])
+            .args(["-Wshadow", "-o"])
             .args([&program, &source, &folder.path().join("pps.c")])
             .arg("-lm"),
     );

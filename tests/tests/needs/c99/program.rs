@@ -12,13 +12,12 @@ use abbe_spec::Spec;
 use abbe_tests::languages::given_arrays;
 
 /// Compiler options. Without `-ffp-contract=off` a compiler may round `a * b + c` once.
-pub(crate) const STRICT: [&str; 10] = [
+pub(crate) const STRICT: [&str; 9] = [
     "-std=c99",
     "-Wall",
     "-Wextra",
     "-Wpedantic",
     "-Wconversion",
-    "-Wshadow",
     "-Wdouble-promotion",
     "-Werror",
     "-O1",
