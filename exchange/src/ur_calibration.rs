@@ -101,7 +101,7 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let format = "calibration of a Universal Robots arm (YAML)".to_owned();
     let files = vec![ExportedFile { name: format!("{}.calibration.yaml", machine.spec.name), text }];
     let sign = sign(&joints, &new, metres);
-    Ok(ExportReport { left_out, ..ExportReport::for_model(machine, format, files, model, sign) })
+    Ok(ExportReport { left_out, sign, ..ExportReport::for_model(machine, format, files, model) })
 }
 
 /// Returns the frames of the joints in `F_0`, with all variables 0.

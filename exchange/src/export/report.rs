@@ -61,15 +61,14 @@ pub struct ExportReport {
 
 impl ExportReport {
     /// Reports a format that holds a model: compares the pose of the tool by `model` with the real
-    /// one.
+    /// one. The sentence about the sign is left to the format.
     pub(crate) fn for_model(
         machine: &RealMachine,
         format: String,
         files: Vec<ExportedFile>,
         model: impl Fn(&[f64]) -> Pose,
-        sign: String,
     ) -> Self {
-        Self::new(machine, format, files, ["nominal", "exported"], machine.model_difference(model), sign)
+        Self::new(machine, format, files, machine.model_difference(model))
     }
 
     /// Reports a format that corrects commands: compares the real pose of the tool at commands
@@ -84,7 +83,8 @@ impl ExportReport {
     ) -> Result<Self, Error> {
         let remains = machine.command_difference(|q, u| Ok(corrected(q, u)))?;
         let sign = if sign.is_empty() { "All errors are 0.".to_owned() } else { sign };
-        Ok(Self::new(machine, format, files, ["as commanded", "corrected"], remains, sign))
+        let compared = ["as commanded", "corrected"];
+        Ok(Self { compared, sign, ..Self::new(machine, format, files, remains) })
     }
 
     /// Reports a format that holds the machine with its mean errors, loops closed: compares its
@@ -99,7 +99,7 @@ impl ExportReport {
             return Err(mistake::with_help(&machine.origin, message, "give errors e_x … e_p of the frame"));
         }
         let model = |q: &[f64]| machine.mean_tool(q).unwrap_or(Pose([[f64::NAN; 3]; 4]));
-        let report = Self::for_model(machine, format.to_owned(), files, model, String::new());
+        let report = Self::for_model(machine, format.to_owned(), files, model);
         let sign = format!(
             "The numbers are those of the real machine, whose tool is up to {} {} from that of the nominal \
              one: do not subtract anything from them.",
@@ -109,14 +109,7 @@ impl ExportReport {
         Ok(Self { sign, left_out: machine.held_at_mean().into_iter().collect(), ..report })
     }
 
-    fn new(
-        machine: &RealMachine,
-        format: String,
-        files: Vec<ExportedFile>,
-        compared: [&'static str; 2],
-        remains: PoseDifference,
-        sign: String,
-    ) -> Self {
+    fn new(machine: &RealMachine, format: String, files: Vec<ExportedFile>, remains: PoseDifference) -> Self {
         let pairs = machine.ideal.iter().zip(&machine.real);
         Self {
             name: machine.spec.name.clone(),
@@ -125,7 +118,7 @@ impl ExportReport {
             files,
             changes: Vec::new(),
             left_out: Vec::new(),
-            compared,
+            compared: ["nominal", "exported"],
             before: PoseDifference::new(pairs.map(|(ideal, real)| [*ideal, *real])),
             at_nodes: None,
             remains,
@@ -133,7 +126,7 @@ impl ExportReport {
             turned: Vec::new(),
             configurations: machine.samples,
             seed: machine.seed,
-            sign,
+            sign: String::new(),
         }
     }
 }
