@@ -27,5 +27,5 @@ pub use transform::{Elementary, Motion, motion};
 pub use unit::{LARGEST, UNIT_NAMES, Unit};
 
 pub(crate) use parse::{parse_expression, parse_unit};
-pub(crate) use tokens::{TextLocation, Token, tokens};
+pub(crate) use tokens::{LocatedText, TextLocation, Token, tokens};
 pub(crate) use transform::parse_transform;

@@ -12,7 +12,7 @@
 use super::build::{Builder, FUNCTIONS_OF_TWO};
 use super::function::FUNCTION_NAMES;
 use super::tokens::{Token, tokens};
-use super::{Binary, Entry, Expression, Function, Scope, TextLocation, Unit};
+use super::{Binary, Entry, Expression, Function, LocatedText, Scope, TextLocation, Unit};
 use crate::diagnostic::{Diagnostic, Span, nearest, suggestion};
 
 /// Maximum nesting depth of parentheses, functions, signs and powers.
@@ -21,13 +21,12 @@ const DEPTH: usize = 100;
 /// Parses and checks a text that is a whole entry. Mistakes are recorded in `found`, and the result
 /// is then `None`.
 pub(crate) fn parse_expression(
-    text: &str,
-    place: &TextLocation,
+    text: &LocatedText<'_>,
     scope: &Scope,
     entry: Entry<'_>,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Expression> {
-    parsed(text, place, scope, found, |parser| {
+    parsed(text, scope, found, |parser| {
         let expression = parser.entry(entry)?;
         parser.expect_end()?;
         Ok(expression)
@@ -36,14 +35,13 @@ pub(crate) fn parse_expression(
 
 /// Parses a text. Mistakes are recorded in `found`, and the result is then `None`.
 pub(super) fn parsed<T>(
-    text: &str,
-    place: &TextLocation,
+    text: &LocatedText<'_>,
     scope: &Scope,
     found: &mut Vec<Diagnostic>,
     parse: impl FnOnce(&mut Parser<'_>) -> Parsed<T>,
 ) -> Option<T> {
     let before = found.len();
-    let result = Parser::new(text, place, scope, found).and_then(|mut parser| parse(&mut parser));
+    let result = Parser::new(text, scope, found).and_then(|mut parser| parse(&mut parser));
     match result {
         Ok(result) => (found.len() == before).then_some(result),
         Err(diagnostic) => {
@@ -55,13 +53,8 @@ pub(super) fn parsed<T>(
 
 /// Parses a unit; an empty text is no unit. A mistake is recorded in `found`, and the result is
 /// then `None`.
-pub(crate) fn parse_unit(
-    text: &str,
-    place: &TextLocation,
-    scope: &Scope,
-    found: &mut Vec<Diagnostic>,
-) -> Option<Unit> {
-    let unit = Parser::new(text, place, scope, &mut Vec::new()).and_then(|mut parser| {
+pub(crate) fn parse_unit(text: &LocatedText<'_>, scope: &Scope, found: &mut Vec<Diagnostic>) -> Option<Unit> {
+    let unit = Parser::new(text, scope, &mut Vec::new()).and_then(|mut parser| {
         let mut span = parser.here();
         let unit = parser.unit(&mut span)?;
         match parser.peek() {
@@ -85,14 +78,9 @@ pub(super) struct Parser<'p> {
 pub(super) type Parsed<T> = Result<T, Diagnostic>;
 
 impl<'p> Parser<'p> {
-    pub(crate) fn new(
-        text: &'p str,
-        place: &'p TextLocation,
-        scope: &'p Scope,
-        found: &'p mut Vec<Diagnostic>,
-    ) -> Parsed<Self> {
-        let tokens = tokens(text, place)?;
-        Ok(Self { tokens, at: 0, depth: 0, place, builder: Builder::new(scope, found) })
+    fn new(text: &'p LocatedText<'p>, scope: &'p Scope, found: &'p mut Vec<Diagnostic>) -> Parsed<Self> {
+        let tokens = tokens(text)?;
+        Ok(Self { tokens, at: 0, depth: 0, place: &text.place, builder: Builder::new(scope, found) })
     }
 
     /// Parses a sum that is a whole entry. The parser can then parse another one.

@@ -5,7 +5,7 @@ use abbe_core::Component;
 use super::parse::{Parsed, Parser, parsed};
 use super::scope::Allowed;
 use super::tokens::Token;
-use super::{Dimension, Entry, Expression, Scope, TextLocation};
+use super::{Dimension, Entry, Expression, LocatedText, Scope};
 use crate::diagnostic::{Diagnostic, suggestion};
 
 /// Kind of an elementary motion.
@@ -39,12 +39,11 @@ const NAMES: [&str; 6] = ["Tx", "Ty", "Tz", "Rx", "Ry", "Rz"];
 /// Parses and checks a product of elementary motions. Mistakes are recorded in `found`, and the
 /// result is then `None`.
 pub(crate) fn parse_transform(
-    text: &str,
-    place: &TextLocation,
+    text: &LocatedText<'_>,
     scope: &Scope,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Vec<Elementary>> {
-    parsed(text, place, scope, found, |parser| {
+    parsed(text, scope, found, |parser| {
         let mut factors = Vec::new();
         while parser.peek() != Token::End {
             factors.push(factor(parser)?);
