@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use abbe::{Error, Pose};
+use abbe::Pose;
 use abbe_spec::number::digits;
 use abbe_spec::{Diagnostics, mistake};
 use serde::Serialize;
@@ -13,6 +13,9 @@ use super::rotary_axes::RotaryAxis;
 
 /// Change of a number, in any unit, below which it is rounding.
 pub(crate) const UNCHANGED: f64 = 1e-12;
+
+/// Decimals of a length or an angle in a file of full precision.
+pub(crate) const DECIMALS: usize = 15;
 
 /// Text of one file.
 #[derive(Clone, Debug, Serialize)]
@@ -80,8 +83,9 @@ impl ExportReport {
         files: Vec<ExportedFile>,
         corrected: impl Fn(&[f64], &[f64]) -> Vec<f64>,
         sign: String,
-    ) -> Result<Self, Error> {
-        let remains = machine.command_difference(|q, u| Ok(corrected(q, u)))?;
+    ) -> Result<Self, Diagnostics> {
+        let remains = machine.command_difference(|q, u| Ok(corrected(q, u)));
+        let remains = remains.map_err(|error| mistake::whole(&machine.origin, &error))?;
         let sign = if sign.is_empty() { "All errors are 0.".to_owned() } else { sign };
         let compared = ["as commanded", "corrected"];
         Ok(Self { compared, sign, ..Self::new(machine, format, files, remains) })
@@ -141,7 +145,7 @@ pub(crate) fn nominal_sign() -> String {
     "The machine has no errors: the numbers are nominal.".to_owned()
 }
 
-/// Rounds a length or an angle to the 15 decimals that files have.
-pub(crate) fn rounded(value: f64) -> f64 {
-    format!("{value:.15}").parse::<f64>().unwrap_or(value) + 0.0
+/// Rounds a number to the decimals that a file has.
+pub(crate) fn rounded(value: f64, decimals: usize) -> f64 {
+    format!("{value:.decimals$}").parse::<f64>().unwrap_or(value) + 0.0
 }

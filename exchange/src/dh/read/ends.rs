@@ -121,10 +121,8 @@ fn placement(end: End, row: &[Span], cells: &Cells<'_>, angles: &mut AngleRoundi
         Some((column, cell)) => cells.number(&column, cell, is_length),
         None => Some(0.0),
     };
-    let [x, y, z, roll, pitch, yaw] = {
-        let six: Option<Vec<f64>> = PLACEMENT.into_iter().map(&mut number).collect();
-        six?.try_into().ok()?
-    };
+    let six: Option<Vec<f64>> = PLACEMENT.into_iter().map(&mut number).collect();
+    let [x, y, z, roll, pitch, yaw]: [f64; 6] = six?.try_into().ok()?;
     let four: Option<Vec<f64>> = NUMBERS.into_iter().map(&mut number).collect();
     let [theta, d, a, alpha]: [f64; 4] = four?.try_into().ok()?;
     let placed = Placement { xyz: [x, y, z], rpy: [roll, pitch, yaw].map(|angle| angles.angle(angle)) };
