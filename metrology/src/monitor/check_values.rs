@@ -75,11 +75,8 @@ impl CheckValues {
         let count = known.map_or(0, |known: Configurations| known.len());
         let mut of_checks = vec![0; count];
         for check in &visits {
-            check
-                .counts(count)
-                .into_iter()
-                .zip(&mut of_checks)
-                .for_each(|(rows, all)| *all += u32::from(rows > 0));
+            let counts = check.counts(count).into_iter().zip(&mut of_checks);
+            counts.for_each(|(rows, all)| *all += u32::from(rows > 0));
         }
         // Index of each configuration among those that are in all checks.
         let mut numbers = 0..;

@@ -118,18 +118,15 @@ impl Simulate {
         }
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
-        let setup = match &self.at {
-            Places::Rows(data) => Setup::at_stations_of(&interpreter, map, data)?,
-            Places::Samples(_) => Setup::at_home(&interpreter, map)?,
+        let (setup, file) = match &self.at {
+            Places::Rows(data) => (Setup::at_stations_of(&interpreter, map, data)?, data.file.clone()),
+            Places::Samples(_) => {
+                let setup = Setup::at_home(&interpreter, map)?;
+                self.note_fixed_inputs(notes);
+                (setup, SAMPLES.to_string())
+            }
         };
-        if let Places::Samples(_) = &self.at {
-            self.note_fixed_inputs(notes);
-        }
         let planned = self.planned(&interpreter, &setup)?;
-        let file = match &self.at {
-            Places::Rows(data) => data.file.clone(),
-            Places::Samples(_) => SAMPLES.to_string(),
-        };
         let Uncertainty { length, angle } = map.uncertainty;
         let noise = self.noise.unwrap_or(length);
         let chance = Chance {
