@@ -8,8 +8,7 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use super::candidates::Stages;
 use super::complete_fit::{Assessed, FitInput};
-use super::extended::extended;
-use super::magnitude::own_magnitudes;
+use super::extended::{extended, own_magnitudes};
 use super::solve::{Solved, diagnose, solve};
 use super::terms::{Basis, ErrorSite, Term};
 use abbe_study::Notes;
