@@ -1,6 +1,5 @@
 //! Corrected joint commands that bring the real tool to the pose of the ideal one.
 
-mod commands;
 pub mod options;
 mod rows;
 
@@ -15,9 +14,8 @@ use crate::running_sums::RunningSums;
 use abbe_study::extrapolation::{Extrapolation, ToolPointDeviation, warn_of_extrapolation};
 use abbe_study::{Evaluator, Machine, Notes, Residuals, RunRecord, finite, mistake, number};
 
-pub use commands::{CommandCorrector, CorrectedCommand};
 use rows::{BaseFramePoses, Task};
-pub use rows::{ErrorNorms, Row};
+pub use rows::{CommandCorrector, CorrectedCommand, ErrorNorms, Row};
 
 /// Job of `abbe compensate`: corrects joint commands.
 pub struct Compensate {

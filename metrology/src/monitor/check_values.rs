@@ -9,9 +9,8 @@ use abbe_study::calibration::random_sources;
 use abbe_study::{Notes, Residual, Residuals, mistake};
 
 use super::checks::{Check, Checks};
-use super::configurations::Configurations;
+use super::configurations::{Configurations, Visits};
 use super::vectors::product;
-use super::visits::Visits;
 use crate::data::{Base, Map};
 use crate::identify::{Setup, check_interpretation, check_plausibility};
 

@@ -1,7 +1,7 @@
 //! Monitors a machine with repeated checks and detects changes.
 //!
-//! `checks` are the files in chronological order, `configurations` the configurations they visit,
-//! `visits` the rows of one check, and `check_values` the measurements and their derivatives.
+//! `checks` are the files in chronological order, `configurations` the configurations they visit
+//! and the rows of one check, and `check_values` the measurements and their derivatives.
 //! `single_errors` are the errors that may have changed, and `charts` monitor each of them with one
 //! false-alarm rate for all. `finding` estimates what has changed, since when and how fast. `job`
 //! runs the evaluation with its `options` and returns the report.
@@ -15,7 +15,6 @@ mod job;
 pub mod options;
 mod single_errors;
 mod vectors;
-mod visits;
 
 pub use charts::{Chart, Limit};
 pub use checks::{Check, Checks};

@@ -195,7 +195,7 @@ impl Simulate {
                     let (samples, stations) = (self.samples(interpreter, *count)?, map.station_names().len());
                     return Ok(Planned::Sampled { samples, stations });
                 }
-                Cow::Owned(self.sampled(interpreter, setup, *count)?)
+                Cow::Owned(self.sampled(setup, *count)?)
             }
         };
         let rows = match list {
@@ -243,12 +243,8 @@ impl Simulate {
     }
 
     /// Finds configurations at which the instruments can be read, up to `count`.
-    fn sampled(
-        &self,
-        manipulator: &dyn Manipulator,
-        setup: &Setup,
-        count: usize,
-    ) -> Result<Data, Diagnostics> {
+    fn sampled(&self, setup: &Setup, count: usize) -> Result<Data, Diagnostics> {
+        let manipulator = setup.ideal.manipulator;
         let tries = match self.map.instruments() {
             Some(all) if all.camera.is_some() => TRIES_OF_VIEW * count,
             None if self.map.sight.is_some() => TRIES_OF_VIEW * count,
