@@ -103,7 +103,7 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
         time: arguments.time,
         points: arguments.page.report.is_some(),
     };
-    let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
+    let accept = Acceptance::given("--accept", arguments.accept.as_deref(), &machine.spec, &map)?;
     let harmonics = harmonics(&arguments.harmonics, &machine.spec)?;
     let terms = arguments.terms.concat();
     let mut job = identify::Identify { machine, map, data, test, terms, harmonics, settings, accept };
@@ -111,11 +111,10 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     let out = arguments.out.as_deref().map(|file| begin(file, &mut outputs)).transpose()?;
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let report = job.run_once(&mut Console::default())?;
-    let out =
-        out.map(|(spec, map, name)| Ok::<_, Failure>((identified_files(name, &job, &report)?, spec, map)));
-    let (written, out) = match out.transpose()? {
+    let (written, out) = match out {
         None => (None, Vec::new()),
-        Some((found, spec, map)) => {
+        Some((spec, map, name)) => {
+            let found = identified_files(name, &job, &report)?;
             (Some(found.text(detail)), vec![spec.fill(&found.spec)?, map.fill(&found.map)?])
         }
     };
@@ -140,12 +139,6 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
         false => text.extend(written.map(|written| format!("\n{written}"))),
     }
     Ok(Outcome::checked(text, accepted).beside(printed))
-}
-
-/// Reads the given limits; without any, returns those of the map.
-pub(crate) fn accept(text: Option<&str>, spec: &Spec, map: &Map) -> Result<Acceptance, Failure> {
-    let Some(text) = text else { return Ok(map.accept.clone()) };
-    Ok(Acceptance::read("--accept", text, spec.length)?)
 }
 
 /// Begins the spec of the identified machine, and its map beside it.

@@ -12,8 +12,8 @@ use abbe::Pose;
 use abbe_spec::number::digits;
 use abbe_spec::{Diagnostics, mistake};
 
-use crate::export::report::unreadable;
-use crate::export::rotary_axes::{Kinematics, RotaryAxis, TabledAxis};
+use crate::export::report::{rounded, unreadable};
+use crate::export::rotary_axes::{RotaryAxis, TabledAxis, placed_difference};
 use crate::export::slides::{Axes, ErrorTable, Reference, Slide, interpolated, small_motion, tool_points};
 use crate::export::{ExportReport, ExportedFile, RealMachine};
 use abbe::analysis::sampling::vectors::{scale, subtract};
@@ -95,13 +95,10 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
     let format = "volumetric compensation tables (ISG CSV)".to_owned();
     let files = vec![ExportedFile { name: format!("{}.volcomp.csv", machine.spec.name), text }];
     let corrected = |q: &[f64], _: &[f64]| tables.corrected(slides, &rotary, q, mm);
-    let report =
-        ExportReport::for_commands(machine, format, files, corrected, largest.1).map_err(evaluated)?;
+    let report = ExportReport::for_commands(machine, format, files, corrected, largest.1)?;
     // A control that has tables of the axes must not have their poses as well.
     let placed = match rotary.is_empty() {
-        true => Kinematics::new(machine, &axes, false)
-            .and_then(|kinematics| kinematics.remains(corrected))
-            .map_err(evaluated)?,
+        true => placed_difference(machine, &axes, false, corrected).map_err(evaluated)?,
         false => None,
     };
     Ok(ExportReport { left_out, placed, turned, ..report })
@@ -145,8 +142,7 @@ fn sentence(letter: char, at: f64, direction: usize, error: f64) -> String {
 
 /// Writes numbers with nine decimals: a picometre and a nanoradian.
 fn row(values: &[f64]) -> String {
-    let number = |value: &f64| format!("{}", format!("{value:.9}").parse::<f64>().unwrap_or(*value) + 0.0);
-    values.iter().map(number).collect::<Vec<_>>().join(" ")
+    values.iter().map(|value| rounded(*value, 9).to_string()).collect::<Vec<_>>().join(" ")
 }
 
 /// Tables, read as the control reads them.

@@ -101,7 +101,6 @@ pub fn write(
         let added = interpolated(&axes, &corrections, count, q);
         q.iter().zip(added).map(|(q, added)| q + added).collect()
     };
-    let evaluated = |error: Error| mistake::whole(&machine.origin, &error);
     let mut left_out = Vec::new();
     if !spec.inputs.is_empty() {
         let inputs: Vec<String> = spec.inputs.iter().map(|input| format!("`{}`", input.name)).collect();
@@ -124,7 +123,7 @@ pub fn write(
     let files = vec![ExportedFile { name: format!("{}.corrections.csv", spec.name), text }];
     let sign = if largest.1.is_empty() { "All corrections are 0.".to_owned() } else { largest.1 };
     let at_nodes = Some(PoseDifference::new(at_nodes));
-    let report = ExportReport::for_commands(machine, format, files, corrected, sign).map_err(evaluated)?;
+    let report = ExportReport::for_commands(machine, format, files, corrected, sign)?;
     Ok(ExportReport { left_out, at_nodes, ..report })
 }
 

@@ -15,7 +15,7 @@ use abbe::Error;
 use abbe_spec::number::digits;
 use abbe_spec::{Diagnostics, mistake};
 
-use crate::export::report::unreadable;
+use crate::export::report::{rounded, unreadable};
 use crate::export::rotary_axes::RotaryAxis;
 use crate::export::slides::{Axes, ErrorTable, Reference, tool_points};
 use crate::export::{ExportReport, ExportedFile, RealMachine};
@@ -50,9 +50,7 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
             let [x, y, z, a, b, c] = reference.errors(machine, &axes, k, value).map_err(evaluated)?;
             let [x, y, z] = [x, y, z].map(|v| v * mm);
             let numbers = [value * mm, x, y, z, a.to_degrees(), b.to_degrees(), c.to_degrees()];
-            let cells = numbers
-                .map(|number| format!("{}", format!("{number:.9}").parse::<f64>().unwrap_or(number) + 0.0));
-            let _ = writeln!(text, "{}", cells.join(","));
+            let _ = writeln!(text, "{}", numbers.map(|number| rounded(number, 9).to_string()).join(","));
             if x.abs().max(y.abs()).max(z.abs()) > largest.0 {
                 let own = [x, y, z][slide.axis];
                 largest = (x.abs().max(y.abs()).max(z.abs()), sentence(letter, value * mm, own));
@@ -83,8 +81,7 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
     ));
     left_out.extend(axes.errors_beyond_own_axis(machine, &[]));
     let format = "rows of KinematicsComp".to_owned();
-    let report =
-        ExportReport::for_commands(machine, format, files, corrected, largest.1).map_err(evaluated)?;
+    let report = ExportReport::for_commands(machine, format, files, corrected, largest.1)?;
     Ok(ExportReport { left_out, turned, ..report })
 }
 
@@ -100,12 +97,8 @@ fn rows(letters: &[char]) -> String {
     for letter in letters.iter().rev() {
         for (column, direction) in ['X', 'Y', 'Z', 'A', 'B', 'C'].into_iter().enumerate() {
             if direction != *letter {
-                row(
-                    &format!("E{direction}{letter}"),
-                    "Trans",
-                    direction,
-                    &format!("column C{} of {letter}", column + 1),
-                );
+                let table = format!("column C{} of {letter}", column + 1);
+                row(&format!("E{direction}{letter}"), "Trans", direction, &table);
             }
         }
         row("", "MachAxis", *letter, "");

@@ -17,7 +17,7 @@ use abbe_spec::{DhConvention, Diagnostics};
 
 use crate::dh::DhTable;
 use crate::export::origins::{Joint, origins};
-use crate::export::report::{UNCHANGED, nominal_sign, rounded, unreadable};
+use crate::export::report::{DECIMALS, UNCHANGED, nominal_sign, rounded, unreadable};
 use crate::export::{ExportReport, ExportedFile, RealMachine, about_x, about_z};
 use crate::placement::{placed, roll_pitch_yaw};
 use abbe::analysis::sampling::vectors::{cross, dot, scale, subtract, unit};
@@ -101,7 +101,7 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let format = "calibration of a Universal Robots arm (YAML)".to_owned();
     let files = vec![ExportedFile { name: format!("{}.calibration.yaml", machine.spec.name), text }];
     let sign = sign(&joints, &new, metres);
-    Ok(ExportReport { left_out, ..ExportReport::for_model(machine, format, files, model, sign) })
+    Ok(ExportReport { left_out, sign, ..ExportReport::for_model(machine, format, files, model) })
 }
 
 /// Returns the frames of the joints in `F_0`, with all variables 0.
@@ -158,7 +158,7 @@ fn text(machine: &RealMachine, origins: &[Pose], metres: f64) -> String {
 /// Returns the values of [`KEYS`] for an origin, in m and rad.
 fn numbers(origin: &Pose, metres: f64) -> [f64; 6] {
     let ([x, y, z], [roll, pitch, yaw]) = (origin.position().map(|v| v * metres), roll_pitch_yaw(origin));
-    [x, y, z, roll, pitch, yaw].map(rounded)
+    [x, y, z, roll, pitch, yaw].map(|number| rounded(number, DECIMALS))
 }
 
 /// Reads the origins of a text of [`text`].

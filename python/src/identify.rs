@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use abbe_metrology::Acceptance;
 use abbe_metrology::data::Data;
 use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};
 use abbe_metrology::identify::{Family, Identify, Prior, Settings};
@@ -12,7 +13,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use crate::job::{limits, named, run, seconds, within};
+use crate::job::{named, run, seconds, within};
 use crate::machine::Machine;
 use crate::measured::{Measured, unusable};
 use crate::report::{Pages, Report};
@@ -69,7 +70,7 @@ impl Machine {
         let ((job, report), notes) = run(py, threads, progress, |notes| {
             let machine = self.machine.clone();
             let test = unseen.as_ref().map(|test| Data::read(test.source(), &map)).transpose()?;
-            let accept = limits(accept, &machine.spec, &map)?;
+            let accept = Acceptance::given("accept", accept, &machine.spec, &map)?;
             let data = Data::read(measured.source(), &map)?;
             test.iter().chain([&data]).for_each(|data| unusable(data, notes));
             let data = resample.map_or_else(|| data.clone(), |number| data.resampled(0, number));

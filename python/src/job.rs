@@ -12,8 +12,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-use abbe_metrology::Acceptance;
-use abbe_metrology::data::Map;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
 use abbe_spec::{Diagnostics, Document, Spec};
@@ -192,11 +190,6 @@ impl Tolerances {
             Some(Self::All(texts)) => texts,
         }
     }
-}
-
-/// Reads the given limits; without any, returns those of the map.
-pub(crate) fn limits(text: Option<&str>, spec: &Spec, map: &Map) -> Result<Acceptance, Diagnostics> {
-    text.map_or(Ok(map.accept.clone()), |text| Acceptance::read("accept", text, spec.length))
 }
 
 /// Reads a length that must not be negative: a number in the unit of the spec, or text with a unit.

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use abbe_metrology::Acceptance;
 use abbe_metrology::data::Data;
 use abbe_metrology::measure::Measure;
 use abbe_report::views;
 use pyo3::prelude::*;
 
-use crate::job::{limits, run};
+use crate::job::run;
 use crate::machine::Machine;
 use crate::measured::{Measured, unusable};
 use crate::report::Report;
@@ -45,7 +46,7 @@ impl Machine {
             let machine = self.machine.clone();
             let mut map = if new_station { map.newly_stationed() } else { map };
             map.is_corrected |= corrected;
-            let accept = limits(accept, &machine.spec, &map)?;
+            let accept = Acceptance::given("accept", accept, &machine.spec, &map)?;
             let data = Data::read(measured.source(), &map)?;
             unusable(&data, notes);
             let job = Measure { data, machine, map, accept };

@@ -15,7 +15,8 @@ use toml::de::{DeString, DeTable, DeValue};
 use crate::bounded::{Bounded, Contents, UnreadableFile, not_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest_after, suggestion};
 use crate::expr::{
-    Allowed, Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Scope, TextLocation, parse_expression,
+    Allowed, Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, LocatedText, Scope, TextLocation,
+    parse_expression,
 };
 use crate::keys::Keys;
 use crate::not_toml::not_toml;
@@ -355,7 +356,7 @@ impl<'d> Item<'d> {
     }
 
     /// Reads a string with its location in the file.
-    pub(crate) fn located_text(&self) -> Option<(&'d str, TextLocation)> {
+    pub(crate) fn located_text(&self) -> Option<LocatedText<'d>> {
         let Some(text) = self.text() else { return self.wrong_type("a string") };
         let span = self.span();
         let raw = &self.document.text[span.clone()];
@@ -364,7 +365,7 @@ impl<'d> Item<'d> {
             Some(offset) if !text.is_empty() && offset <= 4 => TextLocation::Exact(span.start + offset),
             _ => TextLocation::Within(span),
         };
-        Some((text, place))
+        Some(LocatedText { text, place })
     }
 
     /// Reads a number, or an expression in a string.
@@ -372,13 +373,13 @@ impl<'d> Item<'d> {
         let span = self.span();
         let (text, place) = match self.value.get_ref() {
             DeValue::String(_) => {
-                let (text, place) = self.located_text()?;
-                if text.trim().is_empty() {
+                let located = self.located_text()?;
+                if located.text.trim().is_empty() {
                     let message = format!("{} is missing", entry.what);
                     let mistake = Diagnostic::new(span, message).label("this is empty");
                     return self.document.fail(mistake.help("write 0 if it is zero"));
                 }
-                return parse_expression(text, &place, scope, entry, &mut self.document.found.borrow_mut());
+                return parse_expression(&located, scope, entry, &mut self.document.found.borrow_mut());
             }
             DeValue::Integer(number) => (number.to_string(), span.clone()),
             DeValue::Float(number) => (number.to_string(), span.clone()),

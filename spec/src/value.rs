@@ -5,8 +5,8 @@ use abbe_core::LengthUnit;
 use crate::diagnostic::{Diagnostic, Span, listed, nearest};
 use crate::document::{Document, Item};
 use crate::expr::{
-    Allowed, Dimension, Entry, FUNCTION_NAMES, Scope, TextLocation, Token, UNIT_NAMES, parse_expression,
-    tokens,
+    Allowed, Dimension, Entry, FUNCTION_NAMES, LocatedText, Scope, TextLocation, Token, UNIT_NAMES,
+    parse_expression, tokens,
 };
 
 /// Returns the value of the number, or of the constant expression, at `span` of the document's
@@ -38,12 +38,12 @@ pub fn parse_value(
     if text.trim().is_empty() {
         return document.refuse(span, format!("{what} is missing"), "write 0 if it is zero");
     }
-    let place = TextLocation::Exact(span.start);
+    let located = LocatedText { text, place: TextLocation::Exact(span.start) };
     let mistakes = document.mistakes();
-    match tokens(text, &place) {
+    match tokens(&located) {
         Ok(tokens) => {
             let words = tokens.into_iter().filter_map(|(token, range)| match token {
-                Token::Word(word) => Some((word, place.span(range))),
+                Token::Word(word) => Some((word, located.place.span(range))),
                 _ => None,
             });
             document.found.borrow_mut().extend(words.filter_map(|(word, span)| unknown_word(word, span)));
@@ -55,8 +55,7 @@ pub fn parse_value(
     }
     let scope = Scope::new(length);
     let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
-    let value =
-        parse_expression(text, &place, &scope, entry, &mut document.found.borrow_mut())?.constant()?;
+    let value = parse_expression(&located, &scope, entry, &mut document.found.borrow_mut())?.constant()?;
     if !value.is_finite() {
         let help = format!("it is converted to {}", dimension.unit(length.symbol()));
         document.mistake(Diagnostic::new(span, format!("{what} is too large")).help(help));

@@ -10,15 +10,13 @@ mod ellipsoid;
 mod error_budget;
 mod least_likely;
 mod over_signs;
-mod partial_budget;
 mod partial_errors;
 mod peak;
 mod source_errors;
 mod sums;
 
-pub use budget_sweep::{BudgetSweep, error_budget};
+pub use budget_sweep::{BudgetSweep, Gap, PartialBudget, error_budget};
 pub use combined::{Combined, Extreme};
 pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use error_budget::{Budget, BudgetOptions, OrientationErrors, Watch};
-pub use partial_budget::{Gap, PartialBudget};
 pub use source_errors::{Figures, SourceErrors};

@@ -4,12 +4,10 @@
 mod block;
 mod in_order;
 mod row;
-mod rows;
 mod unreachable_summary;
 
-pub(super) use block::Block;
+pub use block::{BLOCK, sweep};
+pub(super) use block::{Block, ready};
 pub use in_order::{in_order, in_order_until};
 pub use row::{Row, Unevaluated};
-pub(super) use rows::ready;
-pub use rows::{BLOCK, sweep};
 pub use unreachable_summary::UnreachableSummary;

@@ -69,11 +69,9 @@ impl DhTable {
     /// Finds the numbers of the nominal chain, in the standard or else the modified convention; a
     /// chain without such numbers is a mistake.
     pub(crate) fn nominal(machine: &RealMachine) -> Result<Self, Diagnostics> {
-        let attempts = [DhConvention::Standard, DhConvention::Modified]
-            .map(|convention| Self::find(machine, convention));
         let mut refused = None;
-        for attempt in attempts {
-            match attempt {
+        for convention in [DhConvention::Standard, DhConvention::Modified] {
+            match Self::find(machine, convention) {
                 Ok(table) => return Ok(table),
                 Err((frame, reason)) => {
                     if refused.as_ref().is_none_or(|(farthest, _)| frame > *farthest) {

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use abbe::{Error, Pose};
+use abbe::Pose;
 use abbe_spec::number::digits;
 use abbe_spec::{Diagnostics, mistake};
 use serde::Serialize;
@@ -13,6 +13,9 @@ use super::rotary_axes::RotaryAxis;
 
 /// Change of a number, in any unit, below which it is rounding.
 pub(crate) const UNCHANGED: f64 = 1e-12;
+
+/// Decimals of a length or an angle in a file of full precision.
+pub(crate) const DECIMALS: usize = 15;
 
 /// Text of one file.
 #[derive(Clone, Debug, Serialize)]
@@ -61,15 +64,14 @@ pub struct ExportReport {
 
 impl ExportReport {
     /// Reports a format that holds a model: compares the pose of the tool by `model` with the real
-    /// one.
+    /// one. The sentence about the sign is left to the format.
     pub(crate) fn for_model(
         machine: &RealMachine,
         format: String,
         files: Vec<ExportedFile>,
         model: impl Fn(&[f64]) -> Pose,
-        sign: String,
     ) -> Self {
-        Self::new(machine, format, files, ["nominal", "exported"], machine.model_difference(model), sign)
+        Self::new(machine, format, files, machine.model_difference(model))
     }
 
     /// Reports a format that corrects commands: compares the real pose of the tool at commands
@@ -81,10 +83,12 @@ impl ExportReport {
         files: Vec<ExportedFile>,
         corrected: impl Fn(&[f64], &[f64]) -> Vec<f64>,
         sign: String,
-    ) -> Result<Self, Error> {
-        let remains = machine.command_difference(|q, u| Ok(corrected(q, u)))?;
+    ) -> Result<Self, Diagnostics> {
+        let remains = machine.command_difference(|q, u| Ok(corrected(q, u)));
+        let remains = remains.map_err(|error| mistake::whole(&machine.origin, &error))?;
         let sign = if sign.is_empty() { "All errors are 0.".to_owned() } else { sign };
-        Ok(Self::new(machine, format, files, ["as commanded", "corrected"], remains, sign))
+        let compared = ["as commanded", "corrected"];
+        Ok(Self { compared, sign, ..Self::new(machine, format, files, remains) })
     }
 
     /// Reports a format that holds the machine with its mean errors, loops closed: compares its
@@ -99,7 +103,7 @@ impl ExportReport {
             return Err(mistake::with_help(&machine.origin, message, "give errors e_x … e_p of the frame"));
         }
         let model = |q: &[f64]| machine.mean_tool(q).unwrap_or(Pose([[f64::NAN; 3]; 4]));
-        let report = Self::for_model(machine, format.to_owned(), files, model, String::new());
+        let report = Self::for_model(machine, format.to_owned(), files, model);
         let sign = format!(
             "The numbers are those of the real machine, whose tool is up to {} {} from that of the nominal \
              one: do not subtract anything from them.",
@@ -109,14 +113,7 @@ impl ExportReport {
         Ok(Self { sign, left_out: machine.held_at_mean().into_iter().collect(), ..report })
     }
 
-    fn new(
-        machine: &RealMachine,
-        format: String,
-        files: Vec<ExportedFile>,
-        compared: [&'static str; 2],
-        remains: PoseDifference,
-        sign: String,
-    ) -> Self {
+    fn new(machine: &RealMachine, format: String, files: Vec<ExportedFile>, remains: PoseDifference) -> Self {
         let pairs = machine.ideal.iter().zip(&machine.real);
         Self {
             name: machine.spec.name.clone(),
@@ -125,7 +122,7 @@ impl ExportReport {
             files,
             changes: Vec::new(),
             left_out: Vec::new(),
-            compared,
+            compared: ["nominal", "exported"],
             before: PoseDifference::new(pairs.map(|(ideal, real)| [*ideal, *real])),
             at_nodes: None,
             remains,
@@ -133,7 +130,7 @@ impl ExportReport {
             turned: Vec::new(),
             configurations: machine.samples,
             seed: machine.seed,
-            sign,
+            sign: String::new(),
         }
     }
 }
@@ -148,7 +145,7 @@ pub(crate) fn nominal_sign() -> String {
     "The machine has no errors: the numbers are nominal.".to_owned()
 }
 
-/// Rounds a length or an angle to the 15 decimals that files have.
-pub(crate) fn rounded(value: f64) -> f64 {
-    format!("{value:.15}").parse::<f64>().unwrap_or(value) + 0.0
+/// Rounds a number to the decimals that a file has.
+pub(crate) fn rounded(value: f64, decimals: usize) -> f64 {
+    format!("{value:.decimals$}").parse::<f64>().unwrap_or(value) + 0.0
 }

@@ -175,68 +175,62 @@ pub(crate) fn angle_error(machine: &RealMachine, axis: usize, q: &[f64], u: &[f6
     Ok(dot([a, b, c], own_direction(machine, axis)?))
 }
 
-/// Kinematics of a control that has the real poses of the rotary axes: its slides move the tool
-/// point accordingly.
-pub(crate) struct Kinematics<'a> {
-    machine: &'a RealMachine,
-    axes: &'a Axes,
-    /// Mean errors of everything before the first slide.
-    errors: ChainErrors,
+/// Returns the difference that remains with a control that has the real poses of the rotary axes,
+/// whose slides move the tool point accordingly, if its commands are corrected, too; `None` without
+/// rotary axes. Poses are without the angles of the axes if tables correct these.
+pub(crate) fn placed_difference(
+    machine: &RealMachine,
+    axes: &Axes,
+    are_angles_corrected: bool,
+    corrected: impl Fn(&[f64], &[f64]) -> Vec<f64>,
+) -> Result<Option<PoseDifference>, Error> {
+    if axes.rotary.is_empty() {
+        return Ok(None);
+    }
+    let errors = errors_of_poses(machine, axes, are_angles_corrected)?;
+    let commanded = |q: &[f64]| commanded(machine, axes, &errors, q);
+    machine.command_difference(|q, u| Ok(corrected(&commanded(q)?, u))).map(Some)
 }
 
-impl<'a> Kinematics<'a> {
-    /// Takes over the mean errors of everything before the first slide, without those of the angles
-    /// of the axes if tables correct these.
-    pub(crate) fn new(
-        machine: &'a RealMachine,
-        axes: &'a Axes,
-        are_angles_corrected: bool,
-    ) -> Result<Self, Error> {
-        let first = axes.first_frame();
-        let mut errors = ChainErrors::none(&machine.spec);
-        errors.frames[..first].copy_from_slice(&machine.mean.frames[..first]);
-        errors.dh_numbers[..first].copy_from_slice(&machine.mean.dh_numbers[..first]);
-        for variable in &axes.rotary {
-            if !are_angles_corrected {
-                errors.joints[*variable] = machine.mean.joints[*variable];
-                continue;
-            }
-            let frame = machine.spec.variables[*variable].frame;
-            let direction = own_direction(machine, *variable)?;
-            let [_, _, _, s, r, p] = &mut errors.frames[frame];
-            // Spin about Y, roll about Z, pitch about X.
-            let about = dot([*p, *s, *r], direction);
-            [p, s, r].into_iter().zip(direction).for_each(|(angle, along)| *angle -= about * along);
-            errors.dh_numbers[frame][0] = 0.0;
+/// Takes over the mean errors of everything before the first slide, without those of the angles of
+/// the axes if tables correct these.
+fn errors_of_poses(
+    machine: &RealMachine,
+    axes: &Axes,
+    are_angles_corrected: bool,
+) -> Result<ChainErrors, Error> {
+    let first = axes.first_frame();
+    let mut errors = ChainErrors::none(&machine.spec);
+    errors.frames[..first].copy_from_slice(&machine.mean.frames[..first]);
+    errors.dh_numbers[..first].copy_from_slice(&machine.mean.dh_numbers[..first]);
+    for variable in &axes.rotary {
+        if !are_angles_corrected {
+            errors.joints[*variable] = machine.mean.joints[*variable];
+            continue;
         }
-        Ok(Self { machine, axes, errors })
+        let frame = machine.spec.variables[*variable].frame;
+        let direction = own_direction(machine, *variable)?;
+        let [_, _, _, s, r, p] = &mut errors.frames[frame];
+        // Spin about Y, roll about Z, pitch about X.
+        let about = dot([*p, *s, *r], direction);
+        [p, s, r].into_iter().zip(direction).for_each(|(angle, along)| *angle -= about * along);
+        errors.dh_numbers[frame][0] = 0.0;
     }
+    Ok(errors)
+}
 
-    /// Returns the difference that remains if its commands are corrected, too; `None` without
-    /// rotary axes.
-    pub(crate) fn remains(
-        &self,
-        corrected: impl Fn(&[f64], &[f64]) -> Vec<f64>,
-    ) -> Result<Option<PoseDifference>, Error> {
-        if self.axes.rotary.is_empty() {
-            return Ok(None);
-        }
-        self.machine.command_difference(|q, u| Ok(corrected(&self.commanded(q)?, u))).map(Some)
+/// Returns the command of that control for a configuration of the nominal machine; orientations are
+/// not corrected.
+fn commanded(machine: &RealMachine, axes: &Axes, errors: &ChainErrors, q: &[f64]) -> Result<Vec<f64>, Error> {
+    let wanted = machine.manipulator.pose(q, &machine.s)?.position();
+    let (links, tool) = machine.links(q, errors)?;
+    let first = axes.first_frame();
+    let bed = product(&links[..first]);
+    let reached = links[first..].iter().fold(bed, |pose, link| link.after(&pose)).then(&tool).position();
+    let mut q = q.to_vec();
+    for slide in &axes.slides {
+        let along = bed.0[slide.axis];
+        q[slide.variable] += (0..3).map(|k| along[k] * (wanted[k] - reached[k])).sum::<f64>();
     }
-
-    /// Returns the command for a configuration of the nominal machine; orientations are not
-    /// corrected.
-    fn commanded(&self, q: &[f64]) -> Result<Vec<f64>, Error> {
-        let wanted = self.machine.manipulator.pose(q, &self.machine.s)?.position();
-        let (links, tool) = self.machine.links(q, &self.errors)?;
-        let first = self.axes.first_frame();
-        let bed = product(&links[..first]);
-        let reached = links[first..].iter().fold(bed, |pose, link| link.after(&pose)).then(&tool).position();
-        let mut q = q.to_vec();
-        for slide in &self.axes.slides {
-            let along = bed.0[slide.axis];
-            q[slide.variable] += (0..3).map(|k| along[k] * (wanted[k] - reached[k])).sum::<f64>();
-        }
-        Ok(q)
-    }
+    Ok(q)
 }

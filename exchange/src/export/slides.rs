@@ -64,12 +64,8 @@ impl Axes {
         };
         let (mut slides, mut rotary): (Vec<Slide>, Vec<usize>) = (Vec::new(), Vec::new());
         // After the first slide there are only slides.
-        let first = spec
-            .variables
-            .iter()
-            .filter(|one| one.kind == VariableKind::Prismatic)
-            .map(|one| one.frame)
-            .min();
+        let sliding = spec.variables.iter().filter(|one| one.kind == VariableKind::Prismatic);
+        let first = sliding.map(|one| one.frame).min();
         for (i, variable) in spec.variables.iter().enumerate() {
             let (name, frame) = (variable.name.as_str(), variable.frame);
             match (variable.kind, first) {

@@ -24,7 +24,7 @@ pub use genhexkins::write_genhexkins;
 use joint::{CalibrationMatrix, CompensatedJoint};
 
 use crate::export::report::unreadable;
-use crate::export::rotary_axes::{Kinematics, RotaryAxis};
+use crate::export::rotary_axes::{RotaryAxis, placed_difference};
 use crate::export::slides::{Axes, Slide, interpolated};
 use crate::export::{ExportReport, ExportedFile, RealMachine};
 
@@ -143,11 +143,8 @@ pub fn write(machine: &mut RealMachine, nodes: usize, has_matrix: bool) -> Resul
         true => "matrix of matrixkins and compensation files of LinuxCNC".to_owned(),
         false => "compensation files of LinuxCNC".to_owned(),
     };
-    let report =
-        ExportReport::for_commands(machine, format, files, corrected, largest.1).map_err(evaluated)?;
-    let placed = Kinematics::new(machine, &axes, true)
-        .and_then(|kinematics| kinematics.remains(corrected))
-        .map_err(evaluated)?;
+    let report = ExportReport::for_commands(machine, format, files, corrected, largest.1)?;
+    let placed = placed_difference(machine, &axes, true, corrected).map_err(evaluated)?;
     Ok(ExportReport { left_out, placed, turned, ..report })
 }
 

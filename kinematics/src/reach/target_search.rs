@@ -278,11 +278,8 @@ impl TargetSearch {
             return ControlFlow::Break(Err(refused));
         }
         if let Some((variable, _, value)) = self.least {
-            return ControlFlow::Break(Err(outside_limits(
-                &problem.description().variables,
-                variable,
-                value,
-            )));
+            let variables = &problem.description().variables;
+            return ControlFlow::Break(Err(outside_limits(variables, variable, value)));
         }
         self.nearest(problem)
     }

@@ -3,16 +3,22 @@
 //! Axes of a grid: values of variables, parameters or inputs, and their combinations.
 //!
 //! Grids of passive variables, such as poses of a platform on legs.
+//!
+//! The paper's workspace: a volume of tool points, each presented at a fixed point of the room.
+//!
+//! A workspace repeated for combinations of input values.
 
+use core::ops::Range;
 use std::fmt;
 use std::sync::Arc;
 
+use abbe_core::lanes::Tiles;
 use abbe_core::{Error, Manipulator, Quantity};
 
-use super::Workspace;
 use super::configurations::Indexed;
+use super::{Show, Workspace};
 use crate::configuration::in_range;
-use crate::{Configuration, ReachError, SumLimits};
+use crate::{Configuration, ReachError, SumLimits, Target, inverse, sampling};
 
 /// Creates the workspace of every combination of the values of some variables, the last one
 /// fastest. The other variables stay at home, or follow those where a sum is fixed.
@@ -121,3 +127,118 @@ pub fn platform_grid<'a>(
 
 /// Largest difference of a passive variable, relative to 1 or its size, that is a rounding error.
 const SAME: f64 = 1e-6;
+
+/// Tool points, target point and approaches of a presented volume.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Presentation {
+    /// Target of every tool point, in `F_0`: the isocenter.
+    pub point: [f64; 3],
+    /// Grid of tool points: values of structural parameters.
+    pub tool_points: Vec<Axis>,
+    /// Grid of approaches: values of fixed variables, such as the spin.
+    pub approaches: Vec<Axis>,
+    /// Variables that move the tool point to the target. All others stay at home.
+    pub solved: Vec<usize>,
+}
+
+/// Creates the workspace of every tool point in every approach, presented at one point of `F_0`.
+/// Approaches vary fastest.
+///
+/// Each configuration is solved from home, independently of the others. Returns [`Error::Count`] if
+/// an index of a variable or a parameter is invalid; other errors as for
+/// [`Manipulator::transforms`].
+pub fn presented_volume<'a>(
+    manipulator: &'a dyn Manipulator,
+    presentation: &Presentation,
+) -> Result<impl Workspace + use<'a>, Error> {
+    let description = manipulator.description();
+    let Presentation { point, tool_points, approaches, solved } = presentation.clone();
+    let indices = approaches.iter().map(|axis| axis.index).chain(solved.iter().copied());
+    in_range(indices, Quantity::Variables, description.variables.len())?;
+    let indices = tool_points.iter().map(|axis| axis.index);
+    in_range(indices, Quantity::Parameters, description.parameters.len())?;
+
+    let home = Configuration::home(description);
+    sampling::arm_length(manipulator, &home.s)?;
+    let count = combinations(&tool_points).saturating_mul(combinations(&approaches));
+    let fill = move |index: usize, configuration: &mut Configuration| {
+        let tool_point = combine(index, &approaches, &mut configuration.q);
+        combine(tool_point, &tool_points, &mut configuration.s);
+        let Configuration { q, s, .. } = &*configuration;
+        configuration.q = inverse(manipulator, s, q, &solved, &Target::Point(point))?;
+        Ok(())
+    };
+    Ok(Indexed { home, count, fill })
+}
+
+/// Workspace repeated for combinations of input values; see [`with_inputs`].
+pub struct WithInputs<'a> {
+    workspace: Box<dyn Workspace + 'a>,
+    inputs: Vec<Axis>,
+}
+
+/// Repeats a workspace for every combination of the inputs' values. The last input varies faster
+/// than those before it, the configurations faster than all inputs.
+///
+/// Returns [`Error::Count`] if an axis has an invalid index. Values outside an input's range are
+/// rejected on evaluation.
+pub fn with_inputs<'a>(
+    manipulator: &dyn Manipulator,
+    workspace: Box<dyn Workspace + 'a>,
+    inputs: Vec<Axis>,
+) -> Result<WithInputs<'a>, Error> {
+    let indices = inputs.iter().map(|axis| axis.index);
+    in_range(indices, Quantity::Inputs, manipulator.description().inputs.len())?;
+    Ok(WithInputs { workspace, inputs })
+}
+
+impl WithInputs<'_> {
+    /// Returns the index in the original workspace, and the number of the combination of inputs.
+    fn split(&self, index: usize) -> (usize, usize) {
+        let count = self.workspace.len().max(1);
+        (index % count, index / count)
+    }
+}
+
+impl Workspace for WithInputs<'_> {
+    fn len(&self) -> usize {
+        self.workspace.len().saturating_mul(combinations(&self.inputs))
+    }
+
+    fn home(&self) -> &Configuration {
+        self.workspace.home()
+    }
+
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        let (place, combination) = self.split(index);
+        let filled = self.workspace.fill(place, configuration);
+        combine(combination, &self.inputs, &mut configuration.u);
+        filled
+    }
+
+    fn fill_each(&self, indices: &[usize], show: &mut Show<'_>) {
+        let places: Vec<usize> = indices.iter().map(|index| self.split(*index).0).collect();
+        self.workspace.fill_each(&places, &mut |place, configuration, filled| {
+            combine(self.split(indices[place]).1, &self.inputs, &mut configuration.u);
+            show(place, configuration, filled);
+        });
+    }
+
+    fn fill_rows(&self, range: Range<usize>, rows: &mut Tiles) -> bool {
+        let ((first, combination), (last, other)) = (self.split(range.start), self.split(range.end - 1));
+        if combination != other || !self.workspace.fill_rows(first..last + 1, rows) {
+            return false;
+        }
+        let Configuration { q, s, u } = self.home();
+        let mut values = u.clone();
+        combine(combination, &self.inputs, &mut values);
+        for (i, value) in values.into_iter().enumerate() {
+            rows.fill_row(q.len() + s.len() + i, value);
+        }
+        true
+    }
+
+    fn point(&self, index: usize) -> Option<[f64; 3]> {
+        self.workspace.point(self.split(index).0)
+    }
+}

@@ -8,12 +8,10 @@ mod base_box;
 mod configurations;
 mod grids;
 mod joint_samples;
-mod presented_volume;
-mod with_inputs;
 
 pub use base_box::{BaseBox, ReachedBox, ToolOrientation, base_box};
 pub use configurations::{Show, Subset, Unreachable, Workspace, listed, one};
-pub use grids::{Axis, Legs, joint_grid, platform_grid};
+pub use grids::{
+    Axis, Legs, Presentation, WithInputs, joint_grid, platform_grid, presented_volume, with_inputs,
+};
 pub use joint_samples::{JointSamples, STREAM, joint_samples, random_joint_samples};
-pub use presented_volume::{Presentation, presented_volume};
-pub use with_inputs::{WithInputs, with_inputs};

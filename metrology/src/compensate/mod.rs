@@ -1,9 +1,6 @@
 //! Corrected joint commands that bring the real tool to the pose of the ideal one.
 
-mod base_frame;
-mod commands;
 pub mod options;
-mod reason;
 mod rows;
 
 use abbe_interpreter::Interpreter;
@@ -17,10 +14,8 @@ use crate::running_sums::RunningSums;
 use abbe_study::extrapolation::{Extrapolation, ToolPointDeviation, warn_of_extrapolation};
 use abbe_study::{Evaluator, Machine, Notes, Residuals, RunRecord, finite, mistake, number};
 
-use base_frame::BaseFramePoses;
-pub use commands::{CommandCorrector, CorrectedCommand};
-use rows::Task;
-pub use rows::{ErrorNorms, Row};
+use rows::{BaseFramePoses, Task};
+pub use rows::{CommandCorrector, CorrectedCommand, ErrorNorms, Row};
 
 /// Job of `abbe compensate`: corrects joint commands.
 pub struct Compensate {

@@ -1,22 +1,27 @@
 //! Compensation of the rows of a data file.
+//!
+//! Measured poses expressed in `F_0`.
+//!
+//! Reasons for incomplete compensation, in words.
+//!
+//! Compensation of single commands, without a data file.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use abbe::analysis::{
-    Goal, ReachError, Target, compensated, in_order_until, inverse, mobility, obstacle, sampling,
+    Goal, Missing, Obstacle, ReachError, Target, compensated, in_order_until, inverse, mobility, obstacle,
+    sampling,
 };
 use abbe::compensator::{Compensated, norms};
 use abbe::identify::{Measurement, Observation};
 use abbe::{Description, Error, Manipulator, Pose, Variable, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
-use serde::Serialize;
-
-use super::base_frame::BaseFramePoses;
-use super::reason::reason;
-use crate::data::{Data, Unusable};
 use abbe_study::number::{Named, beyond_sum_limit, length, of_variable};
 use abbe_study::{Notes, Residual, mistake};
+use serde::Serialize;
+
+use crate::data::{Data, Map, Unusable};
 
 /// Norms of ΔX.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -276,5 +281,99 @@ fn unreachable_message(description: &Description, reason: &ReachError) -> String
             format!("unreachable for the ideal tool: needs {beyond}")
         }
         reason => format!("unreachable for the ideal tool: {reason}"),
+    }
+}
+
+/// Converts measured poses to poses of the tool in `F_0`: removes the station and the mounting of
+/// the target.
+pub(super) struct BaseFramePoses {
+    stations: Vec<Pose>,
+    mountings: Vec<Pose>,
+}
+
+impl BaseFramePoses {
+    pub(super) fn new(map: &Map, data: &Data) -> Self {
+        let names: Vec<&str> =
+            (0..data.stations.len().max(1)).map(|i| data.stations.get(i).map_or("", |name| name)).collect();
+        let stands = |name: &&str| map.stations.pose(name).unwrap_or(Pose::IDENTITY).inverse();
+        Self {
+            stations: names.iter().map(stands).collect(),
+            mountings: names.iter().map(|name| map.mounting_at(name).inverse()).collect(),
+        }
+    }
+
+    pub(super) fn row(&self, mut row: Observation) -> Observation {
+        if let Measurement::Pose(pose) = &mut row.measured {
+            let station = row.station as usize;
+            **pose = self.stations[station].then(pose).then(&self.mountings[station]);
+        }
+        row
+    }
+}
+
+/// Describes the obstacle: joints at their limits, or a direction that no joint moves; and the
+/// remaining error.
+pub(super) fn reason(description: &Description, q: &[f64], obstacle: &Obstacle) -> String {
+    let Description { variables, length: unit, .. } = description;
+    let axis = obstacle.axis.map(|share| format!("{:.2}", share + 0.0)).join(", ");
+    let held = obstacle.limits.iter().map(|j| {
+        let value = of_variable(q[*j], variables[*j].kind, *unit);
+        format!("{} is at its limit {value}", variables[*j].name)
+    });
+    let held = held.collect::<Vec<_>>().join(" and ");
+    let why = match (obstacle.limits.len(), obstacle.immobile, obstacle.missing) {
+        (1.., _, _) => format!("{held} and would have to exceed it"),
+        (0, true, Missing::Point(_)) => format!("no joint moves the tool point along ({axis}) there"),
+        (0, true, Missing::Turn(_)) => {
+            format!("no joint rotates the tool about ({axis}) there with its point fixed")
+        }
+        (0, false, _) => "no better solution was found near the command".to_owned(),
+    };
+    match obstacle.missing {
+        Missing::Turn(turn) => {
+            format!("{why}; the tool point is reached, {turn:.3e} rad of the orientation error remain")
+        }
+        Missing::Point(distance) => format!("{why}; {} left", length(distance, *unit)),
+    }
+}
+
+/// Corrects commands of a machine.
+pub struct CommandCorrector<'a>(Task<'a>);
+
+/// A corrected command.
+#[derive(Clone, Debug)]
+pub struct CorrectedCommand {
+    /// Joint variables, within their limits, in the length unit or rad.
+    pub q: Vec<f64>,
+    /// Remaining error ΔX: rows 1–3 in the length unit, rows 4–6 in rad.
+    pub remaining: [f64; 6],
+    /// Reason why the remaining error exceeds the tolerance; `None` if it does not.
+    pub reason: Option<String>,
+}
+
+impl<'a> CommandCorrector<'a> {
+    /// Creates a corrector for a machine. `tolerance` is the permitted error of the tool point in
+    /// the length unit; for angles 1 rad counts as 1 m. `weight` is the length that weighs as much
+    /// as 1 rad where both cannot be reached; `None` gives the position priority.
+    pub fn new(
+        manipulator: &'a dyn Manipulator,
+        tolerance: f64,
+        weight: Option<f64>,
+    ) -> Result<Self, Diagnostics> {
+        Task::new(manipulator, false, tolerance, weight).map(Self)
+    }
+
+    /// Returns the command that brings the real tool to the pose of the ideal tool at `q`, with the
+    /// inputs `u`.
+    ///
+    /// # Errors
+    ///
+    /// Returns the reason if the command exceeds a joint limit or cannot be evaluated.
+    pub fn correct(&self, q: &[f64], u: &[f64]) -> Result<CorrectedCommand, String> {
+        self.0.correct(q, u).map(|(found, reason)| CorrectedCommand {
+            q: found.q,
+            remaining: found.after,
+            reason,
+        })
     }
 }

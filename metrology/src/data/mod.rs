@@ -1,9 +1,9 @@
 //! Measurements: a CSV file or columns in memory, and a map (TOML) with the meaning of the columns.
 //!
 //! `docs/reference/map.md` describes all keys. `read` and `read_…` read the map, `keys` has its
-//! keys. `source` opens rows: `file` (by `dialect` and `preamble`) or `cells`; `rows` makes
-//! observations of them, by the columns of the map in `layout`; `completed` adds inputs that rows
-//! imply. `runs` reads runs of one axis, `raw_table` tables without a map; `table` is written.
+//! keys. `source` opens rows, and reads tables without a map: `file` (by `dialect` and `preamble`)
+//! or `cells`; `rows` makes observations of them, by the columns of the map in `layout`;
+//! `completed` adds inputs that rows imply. `runs` reads runs of one axis; `table` is written.
 
 mod cells;
 mod choices;
@@ -11,7 +11,6 @@ mod column;
 mod command_pose;
 mod completed;
 mod configurations;
-mod dated;
 mod dialect;
 mod file;
 mod from_rows;
@@ -21,14 +20,11 @@ mod layout;
 mod map;
 mod missing;
 mod preamble;
-mod raw_table;
 mod read;
 mod read_camera;
 mod read_channels;
-mod read_distances;
 mod read_instruments;
 mod read_places;
-mod read_values;
 mod record;
 mod rotation;
 mod rows;
@@ -44,19 +40,18 @@ pub use abbe_spec::csv_writer::{Csv, Heading};
 pub use cells::Cells;
 pub(crate) use choices::UNKNOWN;
 pub use column::{Channel, Column, Scale};
-pub use dated::Dated;
 pub use from_rows::FromRows;
 pub(crate) use from_rows::{change_with_reference, in_order, set_input, with_references};
 pub use instrument::{Instrument, Instruments};
 pub use keys::{TABLES, required_keys, rules};
 pub use map::{Base, Layout, Map, Target};
-pub(crate) use raw_table::{RawTable, raw_table};
 pub(crate) use rows::hash;
-pub use rows::{Data, Summary, Unusable};
+pub use rows::{Data, Dated, Summary, Unusable};
 pub(crate) use runs::runs;
 pub use runs::{Runs, TargetRuns};
 pub use sight::Sight;
 pub use source::{Columns, Source};
+pub(crate) use source::{RawTable, raw_table};
 pub use station::{Placement, StatedPlacement, StatedStation, Stations};
 pub use table::Table;
 pub use target_frame::TargetFrame;

@@ -12,7 +12,7 @@ use super::column::Column;
 use super::instrument::{Instrument, Instruments};
 use super::keys;
 use super::read_camera::camera;
-use super::read_values::{column, columns, deviation, initial_deviation, is_unknown, unit};
+use super::read_channels::{column, columns, deviation, initial_deviation, is_unknown, unit};
 use super::target_frame::TargetFrame;
 
 /// A target with a name.

@@ -1,4 +1,6 @@
 //! Rows of a data file: usable observations, and the reasons of the others.
+//!
+//! Rows with the calendar of their times.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -10,6 +12,8 @@ use abbe::Manipulator;
 use abbe::analysis::sampling;
 use abbe::identify::{Approach, Configurations, Measurement, Observation};
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_study::date::{Calendar, parse_date};
+use abbe_study::{mistake, number};
 use serde::Serialize;
 
 use super::column::{Channel, Column};
@@ -19,7 +23,6 @@ use super::instrument::{Instruments, NOTHING_READ};
 use super::map::{Layout, Map};
 use super::record::Record;
 use super::source::Source;
-use abbe_study::{mistake, number};
 
 /// A row that cannot be used.
 #[derive(Clone, Debug, Serialize)]
@@ -368,5 +371,36 @@ fn moved_from_nowhere(row: &Observation, before: Option<&Observation>, map: &Map
     match (map.instruments(), &row.measured, before) {
         (Some(all), Measurement::Readings(readings), None) => all.at_first(readings.clone()) != *readings,
         _ => false,
+    }
+}
+
+/// Rows of a file, and the calendar of its column of times.
+#[derive(Clone, Debug)]
+pub struct Dated {
+    /// The rows.
+    pub data: Data,
+    /// Calendar of each row; none if the map names no column of times.
+    pub calendars: Option<Vec<Calendar>>,
+}
+
+impl Dated {
+    /// Reads commands, measurements and times. Repeated rows are kept.
+    pub fn read<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
+        let source = source.into();
+        let data = Data::read_wanted(source, map)?;
+        let Some(column) = &map.time else { return Ok(Self { data, calendars: None }) };
+        let table = source.open()?;
+        let place = table.heading.iter().position(|name| *name == column.name);
+        let place = place.ok_or_else(|| map.missing(&source.name(), &[column], &table.heading))?;
+        let mut calendars = Vec::with_capacity(data.observations.len());
+        let mut rows = data.observations.iter().map(|row| row.line).peekable();
+        for record in table.records {
+            let record = record?;
+            if rows.next_if_eq(&record.line).is_some() {
+                let date = parse_date(&record.text(place));
+                calendars.push(date.map_or(Calendar::Days, |(calendar, _)| calendar));
+            }
+        }
+        Ok(Self { data, calendars: Some(calendars) })
     }
 }

@@ -13,7 +13,7 @@ use abbe_spec::edit::Edits;
 use abbe_spec::edit::write::quoted;
 use abbe_spec::{Diagnostics, Spec};
 
-use super::report::Report;
+use super::job::Report;
 use crate::interpretations::{Change, words};
 use abbe_study::number::digits;
 

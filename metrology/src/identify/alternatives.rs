@@ -93,9 +93,7 @@ impl<'a> Explanations<'a> {
         significant: &Significant,
     ) -> Vec<Alternative> {
         let relative = standard_deviation / value.abs();
-        let Some(named) = self.candidates.iter().find(|one| one.name == name) else {
-            return Vec::new();
-        };
+        let Some(named) = self.named(name) else { return Vec::new() };
         let Some(beside) = self.beside_significant(name, significant) else { return Vec::new() };
         let (Some(found), Some(own)) = (beside.rest(&self.found()), self.direction(named)) else {
             return Vec::new();
@@ -142,10 +140,13 @@ impl<'a> Explanations<'a> {
     /// and its standard deviation.
     pub(super) fn alone(&self, name: &str, significant: &Significant) -> Option<(f64, f64)> {
         let beside = self.beside_significant(name, significant)?;
-        let named = self.candidates.iter().find(|one| one.name == name)?;
-        let own = beside.independent(&self.direction(named)?)?;
+        let own = beside.independent(&self.direction(self.named(name)?)?)?;
         let found = beside.rest(&self.found())?;
         Some((own.dot(&found) / own.norm_squared(), 1.0 / own.norm()))
+    }
+
+    fn named(&self, name: &str) -> Option<&ChainError> {
+        self.candidates.iter().find(|one| one.name == name)
     }
 
     /// Returns the values of the kept unknowns.
@@ -165,9 +166,7 @@ impl<'a> Explanations<'a> {
         let mut set: Vec<DVector<f64>> = of_placement.map(|(i, _)| unit(i)).collect();
         set.extend(significant.errors.iter().copied().map(unit));
         let rest = significant.names.iter().filter(|other| **other != name);
-        let direction = |name: &String| {
-            self.candidates.iter().find(|one| one.name == *name).and_then(|one| self.direction(one))
-        };
+        let direction = |name: &String| self.direction(self.named(name)?);
         set.extend(rest.filter_map(direction));
         self.beside(set)
     }

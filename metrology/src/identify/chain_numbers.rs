@@ -1,14 +1,16 @@
 //! Numbers of the chain (joint zeros, structural parameters, Denavit-Hartenberg numbers) that are
 //! equivalent to constant errors of frames.
+//!
+//! Zeros of legs, which no constant errors of frames are equal to.
 
 use abbe::Component;
 use abbe::identify::Unknown;
 use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
 use abbe_codegen::graph::{Frame, Graph, Node};
 use abbe_spec::expr::{Dimension, Symbol};
-use abbe_spec::{ChainNumber, DhNumber, Spec};
+use abbe_spec::{ChainNumber, Deviation, DhNumber, Source, Spec};
 
-use super::terms::ErrorSite;
+use super::terms::{Basis, ErrorSite, Term};
 
 /// Number of configurations at which an error must be equal to count as constant.
 const SAMPLES: usize = 5;
@@ -126,4 +128,25 @@ pub(super) fn is_angle(spec: &Spec, number: ChainNumber) -> bool {
 /// Returns the unit of the error of a number.
 pub(super) fn error_unit(spec: &Spec, is_angle: bool) -> &'static str {
     if is_angle { "rad" } else { spec.length.symbol() }
+}
+
+/// Returns the zero of each joint that moves frames differently from configuration to
+/// configuration, such as the length of a leg, unless a source of unknown magnitude has it. They
+/// are always fitted. Those of other joints are among the errors of the frames.
+pub(super) fn leg_terms(spec: &Spec) -> Vec<Term> {
+    if spec.loops.is_empty() {
+        return Vec::new();
+    }
+    let mut graph = Graph::with_tables(&spec.tables);
+    let is_declared = |number: ChainNumber| {
+        let deviates = |deviation: &Deviation| deviation.number == number;
+        let has = |source: &Source| source.magnitude.is_some() && source.deviations.iter().any(deviates);
+        spec.sources.iter().any(|source| source.enabled && has(source))
+    };
+    let mut is_free = |joint: &usize| {
+        let number = ChainNumber::Joint(*joint);
+        !is_declared(number) && constant_errors(&mut graph, spec, number).is_none()
+    };
+    let joints: Vec<usize> = (0..spec.variables.len()).filter(&mut is_free).collect();
+    joints.into_iter().map(|joint| Term { site: ErrorSite::Joint(joint), basis: Basis::One }).collect()
 }

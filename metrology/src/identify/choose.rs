@@ -8,8 +8,7 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use super::candidates::Stages;
 use super::complete_fit::{Assessed, FitInput};
-use super::extended::extended;
-use super::magnitude::own_magnitudes;
+use super::extended::{extended, own_magnitudes};
 use super::solve::{Solved, diagnose, solve};
 use super::terms::{Basis, ErrorSite, Term};
 use abbe_study::Notes;
@@ -82,15 +81,10 @@ pub(super) fn choose(
     let together = selected.next().flatten();
     let alone = selected.flatten().min_by(|(_, a), (_, b)| a.mean().total_cmp(&b.mean()));
     let best = match (together, alone) {
-        (Some(together), Some(alone)) => {
-            if together.1.is_better_than(&alone.1) {
-                together.0
-            } else {
-                alone.0
-            }
-        }
-        (together, alone) => together.or(alone).map(|(chosen, _)| chosen).unwrap_or_default(),
+        (Some(together), Some(alone)) if !together.1.is_better_than(&alone.1) => Some(alone),
+        (together, alone) => together.or(alone),
     };
+    let best = best.map(|(chosen, _)| chosen).unwrap_or_default();
     let families = sets.first().map(|(families, _)| families.clone()).unwrap_or_default();
     Ok(Chosen { constant: Some(constant), tried, families, notes: skipped, ..best })
 }
@@ -176,12 +170,8 @@ impl Selector<'_> {
             self.tried += stage.len();
             notes.go_on()?;
             let factored = |group: &Vec<Term>| group.iter().filter_map(|term| self.factored(term)).collect();
-            let taken: Vec<ModelTerm> = chosen
-                .groups
-                .iter()
-                .flat_map(|(group, _)| group)
-                .filter_map(|term| self.factored(term))
-                .collect();
+            let taken: Vec<ModelTerm> =
+                chosen.terms().iter().filter_map(|term| self.factored(term)).collect();
             let groups: Vec<Vec<ModelTerm>> = stage.iter().map(factored).collect();
             let candidates = CandidateTerms {
                 taken: &taken,

@@ -6,10 +6,9 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::as_joint_errors::number_terms;
-use super::extended::extended;
+use super::extended::{extended, own_magnitudes};
 use super::instruments::estimate;
 use super::interpretation_check::check_interpretation;
-use super::magnitude::own_magnitudes;
 use super::options::Settings;
 use super::plausibility::check_plausibility;
 use super::setup::Setup;

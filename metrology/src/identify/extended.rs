@@ -1,13 +1,18 @@
 //! Extends a spec by terms as sources. The fit and `analyze` then compute the same model.
+//!
+//! Sources of the spec with an unknown magnitude.
+//!
+//! The model contains such a source as declared, `m₀` times its expression, and a copy of the
+//! expression. The factor of the copy is the unknown x, the difference between the actual magnitude
+//! and `m₀`. The standard deviation in the spec is the prior of x about 0.
 
-use abbe::Component;
+use abbe::{Class, Component};
 use abbe_spec::expr::{Dimension, Expression, Function, Symbol, Unit};
 use abbe_spec::{
-    Axes, Cause, ChainNumber, Compliance, Deviation, DeviationCause, Effect, Factor, Load, Point, Source,
-    Spec,
+    Axes, Cause, ChainNumber, Compliance, Deviation, DeviationCause, Effect, Factor, Load, Magnitude, Point,
+    Source, Spec,
 };
 
-use super::magnitude::own_magnitudes;
 use super::terms::{Angle, Basis, ErrorSite, HeldJoint, Term, Wave};
 
 /// Returns the spec with additional sources after its own: first a copy of magnitude 1 of every
@@ -154,6 +159,29 @@ impl HeldJoint {
     fn expression(self, dimension: Dimension) -> Expression {
         let joint = Expression::from_symbol(Symbol::Variable(self.variable), dimension);
         self.range.map_or_else(|| joint.clone(), |range| joint.clone().clamped(range))
+    }
+}
+
+/// Source of the spec with an unknown magnitude.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OwnMagnitude {
+    /// Index among all sources of the spec.
+    pub(super) source: usize,
+    /// Magnitude declared in the spec.
+    pub(crate) declared: Magnitude,
+}
+
+/// Returns the enabled repeatable sources with a declared magnitude, in the order of the spec.
+pub(crate) fn own_magnitudes(spec: &Spec) -> Vec<OwnMagnitude> {
+    let sources = spec.sources.iter().enumerate();
+    let known = sources.filter(|(_, source)| source.enabled && source.class == Class::Repeatable);
+    known.filter_map(|(i, source)| Some(OwnMagnitude { source: i, declared: source.magnitude? })).collect()
+}
+
+impl OwnMagnitude {
+    /// Returns the source with magnitude 1.
+    pub(super) fn unit(self, spec: &Spec) -> Source {
+        Source { magnitude: None, ..spec.sources[self.source].clone() }
     }
 }
 

@@ -1,51 +1,52 @@
 //! Identification job, from data to report.
+//!
+//! Detects test rows that were also fitted and therefore cannot assess the fit.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 
 use abbe::identify::{Configurations, Distances, Failure, Selection, drift};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::TEST;
+use abbe_study::{Machine, Notes, finite, mistake};
 
 use super::alternatives::{Explanations, target_on_axis};
 use super::as_joint_errors::AsJointErrors;
 use super::between_blocks::include_between_blocks;
 use super::between_stations::include_between_stations;
 use super::candidates::competing;
+use super::chain_numbers::leg_terms;
 use super::choose::{Chosen, choose};
 use super::compare::{compare, refuse_worse};
 use super::complete_fit::FitInput;
-use super::counts::Counts;
 use super::derived::{Derived, derived, has_one_station, with_columns, with_inputs};
-use super::drift::ResidualDrift;
-use super::extrapolation::TestExtrapolation;
 use super::families::{Family, Harmonics};
 use super::found_covariance::FoundCovariance;
 use super::found_model::FoundModel;
 use super::indistinguishable::indistinguishable;
 use super::instruments::{InstrumentFit, instrument_and_coordinate_fits, unequal_note};
 use super::known_distances::known_distance_fits;
-use super::leg_terms::leg_terms;
 use super::options::{LOSSES, ONLY, Settings, family_name};
 use super::parameters::{correlated, magnitudes, parameters, redundant};
 use super::plausibility::{check_lengths, sum_note, tool_note};
 use super::point_residuals::points;
 use super::profiles::{FoundProfiles, find_profiles};
 use super::read_back::{ReadBack, not_read_back, read_back};
-use super::report::{Certainty, CrossValidation, LeftOut, Parameter, Report, TermGain};
+use super::report::{
+    Certainty, Counts, CrossValidation, LeftOut, Parameter, Report, ResidualDrift, TermGain,
+    TestExtrapolation, WeaklyDetermined,
+};
 use super::row_notes::RowNotes;
 use super::scale::scale_note;
 use super::setup::Setup;
 use super::solve::Solved;
 use super::terms::Term;
-use super::train_test_overlap::{overlap_warning, train_test_overlap};
 use super::unexplained::unexplained;
 use super::unread::comparable;
-use super::weakly_determined::WeaklyDetermined;
-use crate::data::{Data, Map, Summary};
+use crate::data::{Data, Map, Summary, hash};
 use crate::{Acceptance, Judged};
-use abbe_study::{Machine, Notes, finite, mistake};
 
 /// Identification of the errors of a machine from measurements.
 pub struct Identify {
@@ -415,4 +416,19 @@ fn gain(spec: &Spec, found: &FoundModel, terms: &[Term], selection: &Selection, 
         f: selection.test.f,
         p: selection.test.p,
     }
+}
+
+/// Counts the test rows whose values are identical to those of a fitted row.
+pub(super) fn train_test_overlap(fit: &Data, test: &Data) -> usize {
+    let tested: HashSet<u64> = test.observations.iter().map(hash).collect();
+    let common: HashSet<u64> = fit.observations.iter().map(hash).filter(|row| tested.contains(row)).collect();
+    test.observations.iter().filter(|row| common.contains(&hash(row))).count()
+}
+
+/// Returns a warning about `overlap` of `rows` test rows that were fitted, if there are any.
+pub fn overlap_warning(overlap: usize, rows: usize) -> Option<String> {
+    let (are, they) = if overlap == 1 { ("is a row", "it") } else { ("are rows", "they") };
+    (overlap > 0).then(|| {
+        format!("{overlap} of the {rows} test rows {are} of the fit: {they} cannot validate the model")
+    })
 }

@@ -4,7 +4,7 @@ use abbe::identify::{Camera, Fit, Identifiable, Model, Unknown};
 use abbe_spec::Spec;
 
 use super::as_joint_errors::AsJointErrors;
-use super::magnitude::OwnMagnitude;
+use super::extended::OwnMagnitude;
 use super::report::{Kind, Magnitude, MagnitudeSum, Pair, Parameter, Redundant};
 use super::setup::Setup;
 use super::solve::Solved;

@@ -1,16 +1,28 @@
 //! Report of an identification.
+//!
+//! Number of identifiable errors of a machine.
+//!
+//! Tests drift of the residuals with the row order.
+//!
+//! Test rows outside the fitted ranges, and the uncertainty of the machine there.
+//!
+//! Errors that the data determine poorly.
 
+use std::borrow::Cow;
+use std::fmt;
 use std::sync::Arc;
 
-use abbe::Pose;
-use abbe::identify::{Fit, Independent, deviation_beyond, student_factor};
+use abbe::identify::{
+    Drift, Fit, FixtureGeometry, Identifiable, Independent, Model, Unknown, deviation_beyond, student_factor,
+};
+use abbe::{LengthUnit, Pose};
+use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_study::extrapolation::ToolPointDeviation;
+use abbe_study::{Residual, Residuals, RunRecord};
 use serde::Serialize;
 
 use super::as_joint_errors::JointError;
-use super::counts::Counts;
-use super::drift::ResidualDrift;
-use super::extrapolation::TestExtrapolation;
 use super::found_model::FoundModel;
 use super::found_placement::FoundPlacement;
 use super::gain::Gain;
@@ -19,11 +31,9 @@ use super::instruments::InstrumentFit;
 use super::joint_profiles::JointProfiles;
 use super::known_distances::KnownDistanceFit;
 use super::point_residuals::PointResidual;
-use super::weakly_determined::WeaklyDetermined;
 use crate::AcceptanceVerdict;
-use crate::data::{Summary, Unusable};
+use crate::data::{Data, Summary, Unusable};
 use crate::sizes::Sizes;
-use abbe_study::{Residual, Residuals, RunRecord};
 
 /// Identified errors, their uncertainty, and the accuracy of the identified machine.
 #[derive(Clone, Debug, Serialize)]
@@ -386,5 +396,153 @@ impl LeftOut {
         let left_out =
             |row: &Unusable| Self { file: file.file.clone(), line: row.line, reason: row.reason.clone() };
         file.unusable.iter().map(left_out)
+    }
+}
+
+/// Number of identifiable errors of base and frames, out of how many.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Counts {
+    /// Number of identifiable combinations.
+    pub rank: usize,
+    /// Number of unknown errors.
+    pub unknowns: usize,
+    /// Is true if the errors of the base are among the unknowns.
+    pub base: bool,
+}
+
+impl Counts {
+    pub(crate) fn new(model: &Model, identifiable: &Identifiable) -> Self {
+        let machine = |unknown: &Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Error(..));
+        let stands = |unknown: &Unknown| matches!(unknown, Unknown::Fixture(..) | Unknown::Zero(_));
+        let kept = || identifiable.kept.iter().map(|k| &model.unknowns[*k]);
+        Self {
+            // Fixtures and zeros that absorb errors are not errors of the machine.
+            rank: match model.unknowns.iter().any(stands) {
+                true => kept().filter(|unknown| machine(unknown)).count(),
+                false => identifiable.errors,
+            },
+            unknowns: model.unknowns.iter().filter(|unknown| machine(unknown)).count(),
+            base: model.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Base(..))),
+        }
+    }
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = if self.base { "frames and base" } else { "frames" };
+        write!(f, "{} of the {} errors of {of}", self.rank, self.unknowns)
+    }
+}
+
+/// False-alarm rate of the test.
+const FALSE_ALARMS: f64 = 0.01;
+
+/// Autocorrelation and drift of the residuals over time.
+#[derive(Clone, Debug, Serialize)]
+pub struct ResidualDrift {
+    /// Lag-1 autocorrelation of the residuals.
+    pub lag_1: f64,
+    /// Probability of such an autocorrelation in a random row order.
+    pub p_of_lag_1: f64,
+    /// Quantity that follows time best: `x`, `y`, `z` or `distance`.
+    pub follows: &'static str,
+    /// Time constant of the settling as a share of the run; none for a linear drift.
+    pub settling: Option<f64>,
+    /// Change of that quantity from the first row to the last, in the length unit.
+    pub change: f64,
+    /// Probability of following time as well in a random row order.
+    pub p: f64,
+    /// Is true if `p` is at most the false-alarm rate.
+    pub is_drift: bool,
+    /// False-alarm rate of the test.
+    pub false_alarms: f64,
+    /// Mean residual distance of the first tenth and of the last tenth of the rows, in the length
+    /// unit.
+    pub ends: [f64; 2],
+}
+
+impl ResidualDrift {
+    pub(crate) fn new(drift: Drift) -> Self {
+        let Drift { lag_1, p_of_lag_1, follows, settling, change, p, ends } = drift;
+        let (is_drift, false_alarms) = (p <= FALSE_ALARMS, FALSE_ALARMS);
+        Self { lag_1, p_of_lag_1, follows, settling, change, p, is_drift, false_alarms, ends }
+    }
+}
+
+/// Test rows outside the fitted ranges of joints and inputs.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct TestExtrapolation {
+    /// Number of such rows.
+    pub count: usize,
+    /// Standard deviation of the tool point; `null` if the spec cannot be written.
+    pub standard_deviation: Option<ToolPointDeviation>,
+}
+
+impl TestExtrapolation {
+    /// Returns none if there are no such rows. `written` is the machine of the written spec,
+    /// `points` are the measured ones in the frame of the tool.
+    ///
+    /// The deviations follow from the covariance and the random sources of the written spec, as in
+    /// `measure`.
+    pub(super) fn new(
+        found: &FoundModel,
+        spec: &Spec,
+        test: &Data,
+        written: Option<&Interpreter>,
+        points: &[[f64; 3]],
+    ) -> Option<Self> {
+        let test = written.map_or(Cow::Borrowed(test), |_| found.as_written(spec, test));
+        let places = test.observations.iter().map(|row| (&row.q[..], &row.u[..]));
+        let fitted = written.map_or(&found.fitted, |written| &written.spec().fitted);
+        let outside = places.filter(|(q, u)| fitted.iter().any(|range| range.is_outside(q, u)));
+        let outside = outside.collect::<Vec<_>>();
+        if outside.is_empty() {
+            return None;
+        }
+        let standard_deviation =
+            written.and_then(|written| ToolPointDeviation::new(written.spec(), written, points, &outside));
+        Some(Self { count: outside.len(), standard_deviation })
+    }
+}
+
+/// Error whose standard deviation from the data alone exceeds half of the prior's.
+#[derive(Clone, Debug, Serialize)]
+pub struct WeaklyDetermined {
+    /// Name of the error.
+    pub name: String,
+    /// Standard deviation from the data alone, beside all kept unknowns, in `unit`.
+    pub standard_deviation: f64,
+    /// Standard deviation of the prior about zero, in `unit`.
+    pub expected: f64,
+    /// Unit: the length unit, rad, or empty.
+    pub unit: &'static str,
+}
+
+impl WeaklyDetermined {
+    pub(crate) fn all(model: &Model, identifiable: &Identifiable, length: LengthUnit) -> Vec<Self> {
+        // A direction or a zero need not be known better than its prior.
+        let matters = |k: usize| match model.unknowns[k] {
+            Unknown::Fixture(fixture, _) => {
+                matches!(model.fixtures[fixture].geometry, FixtureGeometry::Point(_))
+            }
+            Unknown::Zero(_) | Unknown::Intrinsic(_) => false,
+            _ => true,
+        };
+        let weak = identifiable.weak.iter();
+        let weak = weak.filter(|weak| weak.expected.is_finite() && matters(weak.unknown));
+        let determined_weakly = weak.map(|weak| {
+            let unknown = model.unknowns[weak.unknown];
+            Self {
+                name: model.name(unknown),
+                standard_deviation: weak.deviation,
+                expected: weak.expected,
+                unit: match unknown {
+                    Unknown::Magnitude(_) => "",
+                    _ if unknown.is_rotation() => "rad",
+                    _ => length.symbol(),
+                },
+            }
+        });
+        determined_weakly.collect()
     }
 }

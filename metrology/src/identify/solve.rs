@@ -6,11 +6,11 @@ use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Motion;
 use abbe_spec::option::{ONLY_PLACEMENT, ROBUST_TUKEY};
 
+use super::extended::OwnMagnitude;
 use super::joint_profiles::JointProfiles;
-use super::magnitude::OwnMagnitude;
 use super::options::Settings;
-use super::outliers;
 use super::priors::{Prior, fit_with_places};
+use super::row_notes::outlier_warning;
 use super::setup::Setup;
 use super::terms::{Basis, ErrorSite, Term};
 use crate::data::Data;
@@ -118,7 +118,7 @@ pub(super) fn solve<'a>(
         return Ok(solved);
     }
     let warning = match settings.loss {
-        Loss::Squares => outliers::warning(&model, data, found.as_ref().ok().map(|(fit, _)| fit)),
+        Loss::Squares => outlier_warning(&model, data, found.as_ref().ok().map(|(fit, _)| fit)),
         _ => None,
     };
     if let (Err(_), Some(warning)) = (&found, &warning) {

@@ -1,13 +1,17 @@
 //! Measured errors compared with the prediction by the sources of the spec.
+//!
+//! Test of the residuals against the stated uncertainty.
 
 use abbe::Class;
 use abbe::identify::{
-    Chance, EvaluatedModel, Failure, Figures, Model, Observation, Unknown, f_beyond, simulate,
+    Chance, EvaluatedModel, Failure, Figures, Fit, Model, Observation, Options, Unknown, deviation_beyond,
+    f_beyond, fit, simulate,
 };
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use super::errors::{Errors, at_single_target, pose};
+use crate::data::Map;
 use crate::identify::{Setup, unknown_sources};
 
 /// Agreement of measurement and prediction. Lengths are in the length unit.
@@ -172,6 +176,48 @@ fn likely(rows: usize) -> [f64; 2] {
     };
     let largest = |tail: f64| (1..=rows).rev().map(|k| k as f64).find(|k| at_least(*k) > tail).unwrap_or(0.0);
     [0.995, 0.005].map(|tail| largest(tail) / n.max(1.0))
+}
+
+/// Test of the errors minus the repeatable sources against the uncertainty of the instrument: the
+/// χ² test by which `identify` assesses its own residuals.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct ResidualTest {
+    /// Factor of the stated uncertainty that explains the residuals.
+    pub factor: f64,
+    /// Degrees of freedom, counted as in an identification.
+    pub freedom: f64,
+    /// Probability of a factor at least as far from 1 by chance.
+    pub p: f64,
+}
+
+impl ResidualTest {
+    /// Tests the residuals of the machine as specified. `placed` is the fit of stations and
+    /// fixtures to these rows, if there was one.
+    ///
+    /// Returns none if the map states no uncertainty, or for too few rows.
+    pub(super) fn new(
+        setup: &Setup,
+        map: &Map,
+        rows: &[Observation],
+        placed: Option<&Fit>,
+    ) -> Result<Option<Self>, Failure> {
+        if !map.states_uncertainty() {
+            return Ok(None);
+        }
+        let of_fit = |fit: &Fit| {
+            let (factor, freedom) = (fit.sigma, fit.freedom);
+            (freedom > 0.0).then(|| Self { factor, freedom, p: deviation_beyond(factor, freedom) })
+        };
+        if let Some(placed) = placed {
+            return Ok(of_fit(placed));
+        }
+        // A fit without unknowns counts degrees of freedom and combines repeated visits.
+        match fit(&setup.real.with(Vec::new()), rows, &Options::default()) {
+            Ok(fit) => Ok(of_fit(&fit)),
+            Err(Failure::TooFew { .. }) => Ok(None),
+            Err(failure) => Err(failure),
+        }
+    }
 }
 
 #[cfg(test)]

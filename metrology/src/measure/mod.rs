@@ -1,14 +1,13 @@
 //! The job `measure`: accuracy, repeatability, and the share explained by the sources of the spec.
 //!
 //! `errors` computes ΔX of each row; `iso9283` the characteristics of repeated visits; `explained`
-//! compares with the prediction; `readings` does the same for instruments that are read one number
-//! at a time; `residual_test` compares what remains with the stated uncertainty.
+//! compares with the prediction, and what remains with the stated uncertainty; `readings` does the
+//! same for instruments that are read one number at a time.
 
 mod errors;
 mod explained;
 mod iso9283;
 mod readings;
-mod residual_test;
 
 use std::borrow::Cow;
 
@@ -31,10 +30,9 @@ pub use errors::RowError;
 use errors::{Errors, Visit};
 use readings::{Readings, readings};
 
-pub use explained::Explained;
+pub use explained::{Explained, ResidualTest};
 pub use iso9283::{Directions, Distances, Drift, MeanAndMax, Repeated};
 pub use readings::{InstrumentErrors, ReadingErrors, RowReadings};
-pub use residual_test::ResidualTest;
 
 /// Options of `measure`.
 pub struct Measure {

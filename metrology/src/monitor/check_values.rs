@@ -1,18 +1,18 @@
 //! Measurements of every check: the same quantities at the same configurations, in the frame `F_0`.
+//!
+//! Measured points of the first and the last check, minus the predicted ones.
 
-use abbe::identify::{Model, Station, Unknown};
+use abbe::identify::{Failure, Model, Station, Unknown};
 use abbe::{Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_study::calibration::random_sources;
+use abbe_study::{Notes, Residual, Residuals, mistake};
 
 use super::checks::{Check, Checks};
-use super::configurations::Configurations;
-use super::residuals::residuals;
+use super::configurations::{Configurations, Visits};
 use super::vectors::product;
-use super::visits::Visits;
 use crate::data::{Base, Map};
 use crate::identify::{Setup, check_interpretation, check_plausibility};
-use abbe_study::calibration::random_sources;
-use abbe_study::{Notes, Residuals, mistake};
 
 /// Measured minus predicted values of every check, and their derivatives.
 pub(super) struct CheckValues {
@@ -75,11 +75,8 @@ impl CheckValues {
         let count = known.map_or(0, |known: Configurations| known.len());
         let mut of_checks = vec![0; count];
         for check in &visits {
-            check
-                .counts(count)
-                .into_iter()
-                .zip(&mut of_checks)
-                .for_each(|(rows, all)| *all += u32::from(rows > 0));
+            let counts = check.counts(count).into_iter().zip(&mut of_checks);
+            counts.for_each(|(rows, all)| *all += u32::from(rows > 0));
         }
         // Index of each configuration among those that are in all checks.
         let mut numbers = 0..;
@@ -252,4 +249,43 @@ fn orthonormal(columns: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f64>> {
         }
     }
     basis
+}
+
+/// Returns the mean errors of each configuration and target that all checks have, in `F_0`.
+/// `common` is the number of each configuration among them; `names` are those of both checks.
+pub(super) fn residuals(
+    model: &Model,
+    [first, last]: [&Visits; 2],
+    common: &[Option<usize>],
+    names: [&str; 2],
+) -> Result<Option<Residuals>, Failure> {
+    let (before, mut rows) = (means(model, first, common)?, means(model, last, common)?);
+    let is_first = std::ptr::eq(first, last);
+    for (row, before) in rows.iter_mut().zip(before) {
+        row.before = (!is_first).then_some(before.after);
+    }
+    Ok(Residuals::new((!is_first).then_some(names[0]), names[1], &rows, Residual::clone))
+}
+
+/// Returns the mean errors in one check, as errors `after`.
+fn means(model: &Model, visits: &Visits, common: &[Option<usize>]) -> Result<Vec<Residual>, Failure> {
+    let mut at = model.at(&vec![0.0; model.unknowns.len()]);
+    let counts = visits.counts(common.len());
+    let mut means: Vec<Vec<Residual>> = vec![Vec::new(); common.iter().flatten().count()];
+    for (row, configuration) in visits.rows() {
+        let Some(number) = common[configuration] else { continue };
+        let row = visits.in_f0(row);
+        let deviations = at.deviations(&row)?;
+        let mean = &mut means[number];
+        if mean.is_empty() {
+            let point = at.pose(&row)?.position();
+            mean.resize(deviations.len(), Residual::new(&row, &row.q, point, [0.0; 3]));
+        }
+        // Deviations are predicted minus measured.
+        let share = -1.0 / f64::from(counts[configuration]);
+        for (mean, deviation) in mean.iter_mut().zip(deviations) {
+            mean.after = std::array::from_fn(|axis| mean.after[axis] + share * deviation[axis]);
+        }
+    }
+    Ok(means.concat())
 }

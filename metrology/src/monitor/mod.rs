@@ -1,11 +1,10 @@
 //! Monitors a machine with repeated checks and detects changes.
 //!
-//! `checks` are the files in chronological order, `configurations` the configurations they visit,
-//! `visits` the rows of one check, and `check_values` the measurements and their derivatives.
+//! `checks` are the files in chronological order, `configurations` the configurations they visit
+//! and the rows of one check, and `check_values` the measurements and their derivatives.
 //! `single_errors` are the errors that may have changed, and `charts` monitor each of them with one
-//! false-alarm rate for all. `finding` estimates what has changed, since when and how fast;
-//! `residuals` are those of the first and the last check. `job` runs the evaluation with its
-//! `options` and returns the `report`.
+//! false-alarm rate for all. `finding` estimates what has changed, since when and how fast. `job`
+//! runs the evaluation with its `options` and returns the report.
 
 mod charts;
 mod check_values;
@@ -14,15 +13,11 @@ mod configurations;
 mod finding;
 mod job;
 pub mod options;
-mod report;
-mod residuals;
 mod single_errors;
 mod vectors;
-mod visits;
 
 pub use charts::{Chart, Limit};
 pub use checks::{Check, Checks};
 pub use finding::{Exceedance, Finding};
-pub use job::Monitor;
+pub use job::{Alarm, Monitor, Report};
 pub use options::Settings;
-pub use report::{Alarm, Report};

@@ -6,13 +6,13 @@ pub mod options;
 mod report;
 mod sets;
 
+use abbe::Manipulator;
 use abbe::analysis::sampling::{closes, range_of};
 use abbe::analysis::{Configuration, Workspace, joint_samples, random_joint_samples};
 use abbe::identify::{
     Criterion, Design, Failure, Figures, Identifiable, Measurement, Model, Objective, Observation, Unknown,
     knowable, optimal, whole,
 };
-use abbe::{Description, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::{CANDIDATES, SETS};
@@ -107,14 +107,13 @@ impl Plan {
         // Magnitudes that the spec leaves open are unknowns, as in an identification.
         let own = own_magnitudes(&machine.spec);
         let interpreter = Interpreter::new(extended(&machine.spec, &[]));
-        let description = interpreter.description();
         let setup = Setup::at_home(&interpreter, map)?;
         let magnitudes = (machine.spec.sources.len()..).take(own.len()).map(Unknown::Magnitude);
         let model = setup.ideal.with(magnitudes.chain(setup.unknowns(false)).collect());
         let fail = |failure: Failure| mistake::whole(&machine.origin, &failure);
         let mut sizes = model.priors(Prior::DEFAULT_SHARE).map_err(fail)?;
         sizes.iter_mut().zip(&own).for_each(|(size, own)| *size = own.declared.standard_deviation);
-        let used = self.configurations_of_use(&interpreter, description)?;
+        let used = self.configurations_of_use(&interpreter)?;
         let tool_points = model.tool_points(&used).map_err(fail)?;
         // Per coordinate.
         let model_error = self.model_error / 3.0_f64.sqrt();
@@ -298,11 +297,7 @@ impl Plan {
     }
 
     /// Returns the configurations of the workspace of use, without measurements.
-    fn configurations_of_use(
-        &self,
-        manipulator: &dyn Manipulator,
-        description: &Description,
-    ) -> Result<Vec<Observation>, Diagnostics> {
+    fn configurations_of_use(&self, manipulator: &dyn Manipulator) -> Result<Vec<Observation>, Diagnostics> {
         let fail = |error: abbe::Error| mistake::whole(&self.machine.origin, &error);
         let mut region = self.study.region.clone();
         region.fix(self.machine.fixed_inputs());
@@ -313,7 +308,7 @@ impl Plan {
         let configurations = configurations.filter(|Configuration { q, s, .. }| closes(manipulator, q, s));
         let mut configurations: Vec<_> = configurations.collect();
         if configurations.is_empty() {
-            let every: Vec<usize> = (0..description.variables.len()).collect();
+            let every: Vec<usize> = (0..manipulator.description().variables.len()).collect();
             configurations = joint_samples(manipulator, &every, 100).map_err(fail)?.reached();
             configurations.retain(|Configuration { q, s, .. }| closes(manipulator, q, s));
         }

@@ -118,18 +118,15 @@ impl Simulate {
         }
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
-        let setup = match &self.at {
-            Places::Rows(data) => Setup::at_stations_of(&interpreter, map, data)?,
-            Places::Samples(_) => Setup::at_home(&interpreter, map)?,
+        let (setup, file) = match &self.at {
+            Places::Rows(data) => (Setup::at_stations_of(&interpreter, map, data)?, data.file.clone()),
+            Places::Samples(_) => {
+                let setup = Setup::at_home(&interpreter, map)?;
+                self.note_fixed_inputs(notes);
+                (setup, SAMPLES.to_string())
+            }
         };
-        if let Places::Samples(_) = &self.at {
-            self.note_fixed_inputs(notes);
-        }
         let planned = self.planned(&interpreter, &setup)?;
-        let file = match &self.at {
-            Places::Rows(data) => data.file.clone(),
-            Places::Samples(_) => SAMPLES.to_string(),
-        };
         let Uncertainty { length, angle } = map.uncertainty;
         let noise = self.noise.unwrap_or(length);
         let chance = Chance {
@@ -198,7 +195,7 @@ impl Simulate {
                     let (samples, stations) = (self.samples(interpreter, *count)?, map.station_names().len());
                     return Ok(Planned::Sampled { samples, stations });
                 }
-                Cow::Owned(self.sampled(interpreter, setup, *count)?)
+                Cow::Owned(self.sampled(setup, *count)?)
             }
         };
         let rows = match list {
@@ -246,12 +243,8 @@ impl Simulate {
     }
 
     /// Finds configurations at which the instruments can be read, up to `count`.
-    fn sampled(
-        &self,
-        manipulator: &dyn Manipulator,
-        setup: &Setup,
-        count: usize,
-    ) -> Result<Data, Diagnostics> {
+    fn sampled(&self, setup: &Setup, count: usize) -> Result<Data, Diagnostics> {
+        let manipulator = setup.ideal.manipulator;
         let tries = match self.map.instruments() {
             Some(all) if all.camera.is_some() => TRIES_OF_VIEW * count,
             None if self.map.sight.is_some() => TRIES_OF_VIEW * count,

@@ -15,17 +15,15 @@ mod reach;
 mod scope;
 mod table;
 mod tokens;
-mod transform;
 mod unit;
 
 pub use dimension::Dimension;
 pub use expression::{Binary, Expression, Kind, Lookup, Term};
 pub use function::{FUNCTION_NAMES, Function};
+pub use parse::{Elementary, Motion, motion};
 pub use scope::{Allowed, Entry, Name, Scope, Symbol};
 pub use table::{Extrapolation, Interpolation, Table};
-pub use transform::{Elementary, Motion, motion};
 pub use unit::{LARGEST, UNIT_NAMES, Unit};
 
-pub(crate) use parse::{parse_expression, parse_unit};
-pub(crate) use tokens::{TextLocation, Token, tokens};
-pub(crate) use transform::parse_transform;
+pub(crate) use parse::{parse_expression, parse_transform, parse_unit};
+pub(crate) use tokens::{LocatedText, TextLocation, Token, tokens};

@@ -8,11 +8,16 @@
 //! atom    = number [unit] | name | "pi" | (function | table) "(" sum { "," sum } ")" | "(" sum ")"
 //! unit    = [factor] { ("*" | "/") factor }      factor = unit-name ["^" ["-"] digits] | "(" unit ")"
 //! ```
+//!
+//! Products of elementary motions: `Tx(d1) Ry(q4) Tz(300 mm)`.
+
+use abbe_core::Component;
 
 use super::build::{Builder, FUNCTIONS_OF_TWO};
 use super::function::FUNCTION_NAMES;
+use super::scope::Allowed;
 use super::tokens::{Token, tokens};
-use super::{Binary, Entry, Expression, Function, Scope, TextLocation, Unit};
+use super::{Binary, Dimension, Entry, Expression, Function, LocatedText, Scope, TextLocation, Unit};
 use crate::diagnostic::{Diagnostic, Span, nearest, suggestion};
 
 /// Maximum nesting depth of parentheses, functions, signs and powers.
@@ -21,13 +26,12 @@ const DEPTH: usize = 100;
 /// Parses and checks a text that is a whole entry. Mistakes are recorded in `found`, and the result
 /// is then `None`.
 pub(crate) fn parse_expression(
-    text: &str,
-    place: &TextLocation,
+    text: &LocatedText<'_>,
     scope: &Scope,
     entry: Entry<'_>,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Expression> {
-    parsed(text, place, scope, found, |parser| {
+    parsed(text, scope, found, |parser| {
         let expression = parser.entry(entry)?;
         parser.expect_end()?;
         Ok(expression)
@@ -36,14 +40,13 @@ pub(crate) fn parse_expression(
 
 /// Parses a text. Mistakes are recorded in `found`, and the result is then `None`.
 pub(super) fn parsed<T>(
-    text: &str,
-    place: &TextLocation,
+    text: &LocatedText<'_>,
     scope: &Scope,
     found: &mut Vec<Diagnostic>,
     parse: impl FnOnce(&mut Parser<'_>) -> Parsed<T>,
 ) -> Option<T> {
     let before = found.len();
-    let result = Parser::new(text, place, scope, found).and_then(|mut parser| parse(&mut parser));
+    let result = Parser::new(text, scope, found).and_then(|mut parser| parse(&mut parser));
     match result {
         Ok(result) => (found.len() == before).then_some(result),
         Err(diagnostic) => {
@@ -55,13 +58,8 @@ pub(super) fn parsed<T>(
 
 /// Parses a unit; an empty text is no unit. A mistake is recorded in `found`, and the result is
 /// then `None`.
-pub(crate) fn parse_unit(
-    text: &str,
-    place: &TextLocation,
-    scope: &Scope,
-    found: &mut Vec<Diagnostic>,
-) -> Option<Unit> {
-    let unit = Parser::new(text, place, scope, &mut Vec::new()).and_then(|mut parser| {
+pub(crate) fn parse_unit(text: &LocatedText<'_>, scope: &Scope, found: &mut Vec<Diagnostic>) -> Option<Unit> {
+    let unit = Parser::new(text, scope, &mut Vec::new()).and_then(|mut parser| {
         let mut span = parser.here();
         let unit = parser.unit(&mut span)?;
         match parser.peek() {
@@ -85,14 +83,9 @@ pub(super) struct Parser<'p> {
 pub(super) type Parsed<T> = Result<T, Diagnostic>;
 
 impl<'p> Parser<'p> {
-    pub(crate) fn new(
-        text: &'p str,
-        place: &'p TextLocation,
-        scope: &'p Scope,
-        found: &'p mut Vec<Diagnostic>,
-    ) -> Parsed<Self> {
-        let tokens = tokens(text, place)?;
-        Ok(Self { tokens, at: 0, depth: 0, place, builder: Builder::new(scope, found) })
+    fn new(text: &'p LocatedText<'p>, scope: &'p Scope, found: &'p mut Vec<Diagnostic>) -> Parsed<Self> {
+        let tokens = tokens(text)?;
+        Ok(Self { tokens, at: 0, depth: 0, place: &text.place, builder: Builder::new(scope, found) })
     }
 
     /// Parses a sum that is a whole entry. The parser can then parse another one.
@@ -364,4 +357,73 @@ fn unknown_unit(word: &str, span: Span) -> Diagnostic {
         Some(near) => format!("did you mean `{near}`?"),
         None => unit_help(),
     })
+}
+
+/// Kind of an elementary motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Translation along its axis.
+    Translation,
+    /// Rotation about its axis.
+    Rotation,
+}
+
+/// Returns the motion of a generalized error and its axis: 0 = x, 1 = y, 2 = z.
+pub fn motion(component: Component) -> (Motion, usize) {
+    let motion = if component.is_rotation() { Motion::Rotation } else { Motion::Translation };
+    (motion, component.axis())
+}
+
+/// One factor of a transform.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elementary {
+    /// Translation or rotation.
+    pub motion: Motion,
+    /// Axis: 0 = x, 1 = y, 2 = z.
+    pub axis: usize,
+    /// Distance in the spec's length unit, or angle in rad.
+    pub amount: Expression,
+}
+
+const NAMES: [&str; 6] = ["Tx", "Ty", "Tz", "Rx", "Ry", "Rz"];
+
+/// Parses and checks a product of elementary motions. Mistakes are recorded in `found`, and the
+/// result is then `None`.
+pub(crate) fn parse_transform(
+    text: &LocatedText<'_>,
+    scope: &Scope,
+    found: &mut Vec<Diagnostic>,
+) -> Option<Vec<Elementary>> {
+    parsed(text, scope, found, |parser| {
+        let mut factors = Vec::new();
+        while parser.peek() != Token::End {
+            factors.push(factor(parser)?);
+            parser.accept('*');
+        }
+        Ok(factors)
+    })
+}
+
+fn factor(parser: &mut Parser<'_>) -> Parsed<Elementary> {
+    let expected = "Tx, Ty, Tz, Rx, Ry or Rz";
+    let Token::Word(name) = parser.peek() else {
+        return Err(parser.unexpected(expected));
+    };
+    let Some(index) = NAMES.iter().position(|known| *known == name) else {
+        return Err(Diagnostic::new(parser.here(), format!("unknown motion `{name}`"))
+            .label(format!("expected {expected}"))
+            .help(suggestion(0, name, &NAMES, "motions")));
+    };
+    parser.advance();
+    let axis = index % 3;
+    let (motion, dimension, verb) = if index < 3 {
+        (Motion::Translation, Dimension::LENGTH, "translation along")
+    } else {
+        (Motion::Rotation, Dimension::NONE, "rotation about")
+    };
+    let what = format!("the {verb} {}", ["x", "y", "z"][axis]);
+    parser.expect('(')?;
+    let amount = parser.entry(Entry { dimension: Some(dimension), what: &what, names: Allowed::Geometry })?;
+    parser.expect(')')?;
+    Ok(Elementary { motion, axis, amount })
 }

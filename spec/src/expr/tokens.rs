@@ -5,6 +5,13 @@ use crate::diagnostic::{Diagnostic, Span};
 /// Maximum number of tokens: enough for a sum of as many names as a spec may declare.
 pub(super) const LONGEST: usize = 20_000;
 
+/// A text and its location in its file.
+#[derive(Clone, Debug)]
+pub(crate) struct LocatedText<'t> {
+    pub(crate) text: &'t str,
+    pub(crate) place: TextLocation,
+}
+
 /// Location of a text in its file.
 #[derive(Clone, Debug)]
 pub(crate) enum TextLocation {
@@ -34,7 +41,8 @@ pub(crate) enum Token<'t> {
 }
 
 /// Returns the tokens of a text with their ranges in it; the last is [`Token::End`].
-pub(crate) fn tokens<'t>(text: &'t str, place: &TextLocation) -> Result<Vec<(Token<'t>, Span)>, Diagnostic> {
+pub(crate) fn tokens<'t>(located: &LocatedText<'t>) -> Result<Vec<(Token<'t>, Span)>, Diagnostic> {
+    let LocatedText { text, place } = located;
     let mut tokens = Vec::new();
     let mut at = 0;
     while let Some(character) = text[at..].chars().next() {

@@ -2,7 +2,6 @@
 //!
 //! [`Spec`] is the contents of a valid file; `read` creates it from the text.
 
-mod declared;
 mod frame;
 mod names;
 mod read;
@@ -10,7 +9,6 @@ mod source;
 mod spec;
 mod tree;
 
-pub use declared::{Fitted, Input, Parameter, Variable};
 pub use frame::{ChainNumber, DhConvention, DhNumber, Factor, Frame, Matrix};
 pub use names::{as_identifier, check_name};
 pub use read::keys::{TABLES, rules};
@@ -18,5 +16,5 @@ pub use source::{
     Axes, Beam, Cause, Compliance, Covariance, Deviation, DeviationCause, Effect, Identified, Load,
     Magnitude, Point, Source, Uncertain,
 };
-pub use spec::{MAGNITUDE, Spec};
+pub use spec::{Fitted, Input, MAGNITUDE, Parameter, Spec, Variable};
 pub use tree::{Closure, Loop, Tree};

@@ -4,7 +4,7 @@
 //! `--json` prints. `parts` divides the sweep over several machines, `figures` gathers figure data
 //! during the sweep, and `first_order` compares with the exact chain.
 //!
-//! `unreachable` has the reasons, `loop_condition` the loops, and `singular` the Euler angles.
+//! `unreachable` has the reasons and the state of loops, and `singular` the Euler angles.
 //! `errors_with_parts` are those of several sources, `compensated` the machine after compensation,
 //! and `judgement` holds both machines against the tolerances.
 
@@ -14,7 +14,6 @@ pub mod figures;
 mod first_order;
 mod job;
 mod judgement;
-mod loop_condition;
 pub mod options;
 pub mod parts;
 mod report;
@@ -24,7 +23,10 @@ mod unreachable;
 
 pub use first_order::FirstOrder;
 pub use job::Analyze;
-pub use loop_condition::{LoopCondition, NEARLY_SINGULAR};
+pub use unreachable::{
+    LoopCondition, NEARLY_SINGULAR, UnreachableReason, unreachable_reason, unreachable_reasons,
+    unreachable_summary,
+};
 
 /// Reason why nothing is certified of machines that are not a chain.
 pub const NOT_CERTIFIED: &str = "`abbe bound` proves a bound, which takes longer";
@@ -34,4 +36,3 @@ pub use report::{
     OrientationSource, Quantity, Radii, RemainingErrors, Report, RootMeanSquares, SourceReport,
     SourceUncertainty, ToleranceVerdict, UncertaintyBudget, Verdict, Verdicts,
 };
-pub use unreachable::{UnreachableReason, unreachable_reason, unreachable_reasons, unreachable_summary};

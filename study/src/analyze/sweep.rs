@@ -13,12 +13,12 @@ use serde::{Deserialize, Serialize};
 use super::errors_with_parts::LargestWithParts;
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
-use super::loop_condition::LoopCondition;
 use super::report::{
     AfterCompensation, CombinedReport, Comparison, CompensationBasis, ErrorSites, Ledger, MonteCarloErrors,
     MonteCarloReport, OrientationReport, RemainingErrors, Report, SEED, SourceReport, UncertaintyBudget,
 };
 use super::unreachable;
+use super::unreachable::LoopCondition;
 use crate::bound::CertifiedNorms;
 use crate::calibration::named_as_one;
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};

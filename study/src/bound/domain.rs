@@ -109,15 +109,8 @@ impl Domain {
             let is_given_up = progress.certified.is_infinite() && progress.boxes >= GIVE_UP_BOXES;
             (implicit.is_empty() || !is_given_up) && watch(progress)
         };
-        abbe_bound::largest(
-            graph,
-            magnitude,
-            implicit,
-            &names,
-            &|symbol| self.home(symbol),
-            effort,
-            &mut watch,
-        )
+        let still = |symbol| self.home(symbol);
+        abbe_bound::largest(graph, magnitude, implicit, &names, &still, effort, &mut watch)
     }
 
     /// Bounds the norms by the sum of their parts; infinite unless the frames are a chain.

@@ -5,14 +5,16 @@ use abbe_spec::diagnostic::Span;
 use abbe_spec::expr::{Dimension, LARGEST, UNIT_NAMES};
 use abbe_spec::option::{UNITS_MM_DEG, option};
 use abbe_spec::value::parse_value;
-use abbe_spec::{Diagnostic, Document};
+use abbe_spec::{DhConvention, Diagnostic, Document};
 
 use super::columns::{Column, Columns};
 use super::heading::{Quantity, Unit};
 use crate::dh::table::Units;
 
-/// Reads cells.
+/// Reads the cells of the table in a document.
 pub(super) struct Cells<'c> {
+    pub(super) document: &'c Document,
+    pub(super) convention: DhConvention,
     pub(super) columns: &'c Columns,
     pub(super) units: Units,
     /// Unit of every length that is returned.
@@ -47,13 +49,8 @@ impl Cells<'_> {
     }
 
     /// Reads a number in a cell, a length or an angle, in the units of the chain.
-    pub(super) fn number(
-        &self,
-        column: &Column,
-        cell: Span,
-        is_length: bool,
-        document: &Document,
-    ) -> Option<f64> {
+    pub(super) fn number(&self, column: &Column, cell: Span, is_length: bool) -> Option<f64> {
+        let document = self.document;
         let whole = document.text.clone();
         let text = &whole[cell.clone()];
         // Numbers may have the sign of degrees, and the minus sign of typesetters.
@@ -110,12 +107,13 @@ impl Cells<'_> {
     }
 
     /// Reads a cell of theta or d.
-    pub(super) fn amount(&self, row: &[Span], quantity: Quantity, document: &Document) -> Option<Amount> {
+    pub(super) fn amount(&self, row: &[Span], quantity: Quantity) -> Option<Amount> {
         let Some((column, cell)) = self.cell(row, quantity) else { return Some(Amount::default()) };
         let is_length = quantity == Quantity::D;
+        let document = self.document;
         let whole = document.text.clone();
         let Some(name) = variable(&whole, cell.clone()) else {
-            let constant = self.number(&column, cell, is_length, document)?;
+            let constant = self.number(&column, cell, is_length)?;
             return Some(Amount { constant, ..Amount::default() });
         };
         let part = |span: Span| {
@@ -146,7 +144,7 @@ impl Cells<'_> {
             if !span.is_empty() {
                 let plus = whole[span.clone()].starts_with('+');
                 let span = if plus { part(span.start + 1..span.end) } else { span };
-                constant += self.number(&column, span, is_length, document)?;
+                constant += self.number(&column, span, is_length)?;
             }
         }
         Some(Amount { variable: Some((identifier(&whole[name.clone()]), name)), reversed, constant })

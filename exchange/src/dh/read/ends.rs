@@ -2,7 +2,6 @@
 //! numbers.
 
 use abbe_spec::diagnostic::Span;
-use abbe_spec::{DhConvention, Document};
 
 use super::cell::Cells;
 use super::heading::Quantity;
@@ -68,10 +67,9 @@ impl End {
 pub(super) fn read(
     text: &mut Text,
     cells: &Cells<'_>,
-    convention: DhConvention,
     angles: &mut AngleRounding,
-    document: &Document,
 ) -> Option<[Option<Placement>; 2]> {
+    let document = cells.document;
     let whole = document.text.clone();
     let count = text.rows.len();
     let mut found = [None; 2];
@@ -95,7 +93,7 @@ pub(super) fn read(
                     the kind `fixed`",
             );
         }
-        found[end as usize] = Some(placement(end, row, cells, convention, angles, document)?);
+        found[end as usize] = Some(placement(end, row, cells, angles)?);
     }
     if found != [None; 2] {
         let is_zero = |cell: &Span| whole[cell.clone()].parse() == Ok(0.0);
@@ -113,26 +111,18 @@ pub(super) fn read(
 }
 
 /// Reads the placement in a row of base or tool.
-fn placement(
-    end: End,
-    row: &[Span],
-    cells: &Cells<'_>,
-    convention: DhConvention,
-    angles: &mut AngleRounding,
-    document: &Document,
-) -> Option<Placement> {
+fn placement(end: End, row: &[Span], cells: &Cells<'_>, angles: &mut AngleRounding) -> Option<Placement> {
+    let &Cells { document, convention, .. } = cells;
     if let Some((_, cell)) = JOINT_ONLY.iter().find_map(|quantity| cells.cell(row, *quantity)) {
         let message = format!("the {} is fixed: this column is for joints only", end.name());
         return document.refuse(cell, message, "leave this cell empty");
     }
     let mut number = |(quantity, is_length): (Quantity, bool)| match cells.cell(row, quantity) {
-        Some((column, cell)) => cells.number(&column, cell, is_length, document),
+        Some((column, cell)) => cells.number(&column, cell, is_length),
         None => Some(0.0),
     };
-    let [x, y, z, roll, pitch, yaw] = {
-        let six: Option<Vec<f64>> = PLACEMENT.into_iter().map(&mut number).collect();
-        six?.try_into().ok()?
-    };
+    let six: Option<Vec<f64>> = PLACEMENT.into_iter().map(&mut number).collect();
+    let [x, y, z, roll, pitch, yaw]: [f64; 6] = six?.try_into().ok()?;
     let four: Option<Vec<f64>> = NUMBERS.into_iter().map(&mut number).collect();
     let [theta, d, a, alpha]: [f64; 4] = four?.try_into().ok()?;
     let placed = Placement { xyz: [x, y, z], rpy: [roll, pitch, yaw].map(|angle| angles.angle(angle)) };

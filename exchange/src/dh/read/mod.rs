@@ -39,9 +39,10 @@ pub fn read(
     let columns = Columns::read(&text, convention, document)?;
     let length = units.length.or_else(|| columns.length()).unwrap_or(LengthUnit::Metre);
     let (mistakes, whole) = (document.mistakes(), document.text.clone());
-    let cells = Cells { columns: &columns, units, length, decimal_comma: text.decimal_comma };
-    let [base, tool] = ends::read(&mut text, &cells, convention, angles, document)?;
-    let joints = rows::read(&text, &cells, document, notes);
+    let decimal_comma = text.decimal_comma;
+    let cells = Cells { document, convention, columns: &columns, units, length, decimal_comma };
+    let [base, tool] = ends::read(&mut text, &cells, angles)?;
+    let joints = rows::read(&text, &cells, notes);
     if document.mistakes() > mistakes {
         return None;
     }

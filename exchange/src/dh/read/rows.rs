@@ -50,10 +50,11 @@ const KINDS: [(&str, Kind); 10] = [
 ];
 
 /// Reads the joints of all rows; mistakes go to the document.
-pub(super) fn read(text: &Text, cells: &Cells<'_>, document: &Document, notes: &mut dyn Notes) -> Vec<Joint> {
+pub(super) fn read(text: &Text, cells: &Cells<'_>, notes: &mut dyn Notes) -> Vec<Joint> {
+    let document = cells.document;
     let mut joints: Vec<Joint> = Vec::new();
     for (i, row) in text.rows.iter().enumerate() {
-        let Some(joint) = joint(i, row, cells, document) else { continue };
+        let Some(joint) = joint(i, row, cells) else { continue };
         let same = |other: &&Joint| match (&other.motion, &joint.motion) {
             (Some(other), Some(this)) => other.variable == this.variable,
             _ => false,
@@ -91,12 +92,13 @@ pub(super) fn read(text: &Text, cells: &Cells<'_>, document: &Document, notes: &
 }
 
 /// Reads row `i`, counted from 0.
-fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &Document) -> Option<Joint> {
+fn joint(i: usize, row: &[Span], cells: &Cells<'_>) -> Option<Joint> {
+    let document = cells.document;
     let whole = document.text.clone();
-    let theta = cells.amount(row, Quantity::Theta, document);
-    let d = cells.amount(row, Quantity::D, document);
+    let theta = cells.amount(row, Quantity::Theta);
+    let d = cells.amount(row, Quantity::D);
     let plain = |quantity| match cells.cell(row, quantity) {
-        Some((column, cell)) => cells.number(&column, cell, quantity == Quantity::A, document),
+        Some((column, cell)) => cells.number(&column, cell, quantity == Quantity::A),
         None => Some(0.0),
     };
     let (a, alpha) = (plain(Quantity::A), plain(Quantity::Alpha));
@@ -136,7 +138,7 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &Document) -> Opti
     let prismatic = kind == Kind::Prismatic;
     let Amount { variable, reversed, constant } = if prismatic { d.clone() } else { theta.clone() };
     let number = |quantity| match cells.cell(row, quantity) {
-        Some((column, cell)) => cells.number(&column, cell, prismatic, document).map(Some),
+        Some((column, cell)) => cells.number(&column, cell, prismatic).map(Some),
         None => Some(None),
     };
     let (offset, lower, upper) =

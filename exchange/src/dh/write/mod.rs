@@ -48,7 +48,7 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let format = format!("Denavit-Hartenberg numbers, {word}");
     let files = vec![ExportedFile { name: format!("{}.dh.csv", machine.spec.name), text }];
     let sign = sign(&nominal, &table, machine);
-    Ok(ExportReport { left_out, ..ExportReport::for_model(machine, format, files, |q| read.pose(q), sign) })
+    Ok(ExportReport { left_out, sign, ..ExportReport::for_model(machine, format, files, |q| read.pose(q)) })
 }
 
 /// Returns a sentence about neighbouring parallel axes, if there are any.

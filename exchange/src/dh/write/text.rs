@@ -6,7 +6,7 @@ use abbe_spec::DhConvention;
 
 use crate::dh::table::{DhTable, Row};
 use crate::export::RealMachine;
-use crate::export::report::rounded;
+use crate::export::report::{DECIMALS, rounded};
 
 /// Writes a table.
 pub(super) fn write(table: &DhTable, machine: &RealMachine) -> String {
@@ -21,7 +21,7 @@ pub(super) fn write(table: &DhTable, machine: &RealMachine) -> String {
         machine.spec.name
     );
     for Row { name, variable, prismatic, reversed, numbers } in &table.rows {
-        let [theta, d, a, alpha] = numbers.map(rounded);
+        let [theta, d, a, alpha] = numbers.map(|number| rounded(number, DECIMALS));
         let kind = match (variable, prismatic) {
             (None, _) => "fixed",
             (_, false) => "revolute",

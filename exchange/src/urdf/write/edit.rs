@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use abbe::{Orientation, Pose, deviation};
 
-use crate::export::report::rounded;
+use crate::export::report::{DECIMALS, rounded};
 use crate::placement::{placed, roll_pitch_yaw};
 use abbe::analysis::sampling::vectors::norm;
 
@@ -134,6 +134,6 @@ fn nearest(rpy: [f64; 3], old: [f64; 3]) -> [f64; 3] {
 
 /// Writes three numbers of an attribute.
 pub(super) fn three(numbers: [f64; 3]) -> String {
-    let [x, y, z] = numbers.map(rounded);
+    let [x, y, z] = numbers.map(|number| rounded(number, DECIMALS));
     format!("{x} {y} {z}")
 }

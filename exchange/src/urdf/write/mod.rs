@@ -85,8 +85,8 @@ pub fn write(machine: &RealMachine, file: &Path, ends: &Ends) -> Result<ExportRe
     });
     let format = format!("URDF, {} of {} origins changed", changes.len(), joints.len());
     let files = vec![ExportedFile { name, text }];
-    let report = ExportReport::for_model(machine, format, files, |q| model.tool(&read, q), sign);
-    Ok(ExportReport { changes, left_out, ..report })
+    let report = ExportReport::for_model(machine, format, files, |q| model.tool(&read, q));
+    Ok(ExportReport { changes, left_out, sign, ..report })
 }
 
 /// Chain of the file, matched with that of the spec.

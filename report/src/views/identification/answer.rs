@@ -1,13 +1,16 @@
 //! The first screen: accuracy on held-out rows, most significant errors, and gaps.
+//!
+//! Places of the machine, of what is mounted on its tool, and of instruments, with their standard
+//! deviations.
 
 use abbe_metrology::identify::{
-    JointError, Kind, Parameter, Report, ResidualDrift, Sizes, Written, overlap_warning,
+    FoundInstrument, JointError, Kind, Parameter, PlacementAtStation, Report, ResidualDrift, Sizes, Written,
+    overlap_warning,
 };
 use abbe_spec::Spec;
 use abbe_spec::option::FULL;
 use abbe_study::number::{counted, digits, error_unit, fixed};
 
-use super::places::places;
 use crate::document::{Section, Table, first};
 use crate::unit::angle_in_mrad;
 use crate::views::shared::{accepted, drift_clauses, first_notes, first_rows, residual_verdict};
@@ -230,4 +233,44 @@ fn residuals(report: &Report) -> String {
             .to_owned();
     }
     residual_verdict(report.uncertainty_factor, report.certainty.p_of_factor, "the model does not have", "")
+}
+
+/// Tabulates all places that were fitted: positions in the frame that the map states them in.
+pub(super) fn places(report: &Report) -> Table {
+    let (factor, unit) = error_unit(report.length);
+    let columns = ["place", ">x", ">y", ">z", "", "± 1 σ"];
+    let row = |name: String, at: [f64; 3], variances: [f64; 3]| {
+        let [x, y, z] = at.map(|value| fixed(factor * value, 3));
+        let deviations = variances.map(|variance| match variance > 0.0 {
+            true => digits(factor * variance.sqrt(), 2),
+            false => "held".to_owned(),
+        });
+        let is_fitted = variances.iter().any(|variance| *variance > 0.0);
+        is_fitted.then(|| [name, x, y, z, unit.to_owned(), deviations.join(", ")])
+    };
+    let named =
+        |what: &str, name: &str| if name.is_empty() { what.to_owned() } else { format!("{what} {name}") };
+    let placed = &report.placed;
+    let stations = placed.stations.iter().map(|station| {
+        let of = |i: usize| station.covariance[i][i];
+        row(named("machine", &station.name), [0, 1, 2].map(|i| station.pose[i][3]), [of(0), of(1), of(2)])
+    });
+    let on_tool = placed.placements();
+    let on_tool = on_tool.iter().flat_map(|PlacementAtStation { station, targets, mounting, covariance }| {
+        let targets = targets.iter().enumerate().map(move |(j, at)| {
+            let what = if targets.len() > 1 { format!("target {}", j + 1) } else { "target".to_owned() };
+            row(named(&what, station), *at, [0, 1, 2].map(|i| covariance[3 * j + i][3 * j + i]))
+        });
+        let frame = mounting.map(|pose| {
+            let what = named("measured frame", station);
+            row(what, [0, 1, 2].map(|i| pose[i][3]), [0, 1, 2].map(|i| covariance[i][i]))
+        });
+        targets.chain(frame)
+    });
+    let instruments =
+        placed.instruments.iter().filter_map(|FoundInstrument { name, position, covariance, .. }| {
+            Some(row(name.clone(), (*position)?, [0, 1, 2].map(|i| covariance[i][i])))
+        });
+    let rows: Vec<_> = stations.chain(on_tool).chain(instruments).flatten().collect();
+    Table::new("", columns).rows(rows)
 }

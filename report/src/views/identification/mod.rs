@@ -3,8 +3,6 @@
 mod accuracy;
 mod answer;
 mod errors;
-mod indistinguishable;
-mod places;
 
 use abbe_metrology::data::Map;
 use abbe_metrology::identify::{Report, Sizes};
@@ -15,10 +13,9 @@ use super::shared::{NOTES, accepted, data_rows, instrument, notes};
 use crate::document::{Card, Document, Section};
 use crate::figures::residuals::{ErrorNames, Residual, scenes};
 use accuracy::{accuracy, profiles, terms};
-use answer::{answer, headline};
+use answer::{answer, headline, places};
 use errors::machine;
-pub(super) use indistinguishable::{combination, indistinguishable};
-use places::places;
+pub(super) use errors::{combination, indistinguishable};
 
 /// Describes an identification; `spec` and `map` are those of the job.
 pub fn identification(spec: &Spec, map: &Map, report: &Report) -> Document {

@@ -51,8 +51,8 @@ fn read_form(section: &Section<'_>, own: OwnVariable, scope: &Scope) -> Option<V
     };
     match form.key.as_str() {
         "transform" => {
-            let (text, place) = form.located_text()?;
-            let factors = parse_transform(text, &place, scope, &mut section.document.found.borrow_mut())?;
+            let text = form.located_text()?;
+            let factors = parse_transform(&text, scope, &mut section.document.found.borrow_mut())?;
             if factors.is_empty() {
                 let label = "expected a product of Tx, Ty, Tz, Rx, Ry, Rz";
                 let mistake = Diagnostic::new(form.span(), "this transform is empty");

@@ -131,6 +131,6 @@ struct Axis {
 }
 
 fn unit(item: &Item<'_>, scope: &Scope) -> Option<Unit> {
-    let (text, place) = item.located_text()?;
-    parse_unit(text, &place, scope, &mut item.document.found.borrow_mut())
+    let text = item.located_text()?;
+    parse_unit(&text, scope, &mut item.document.found.borrow_mut())
 }

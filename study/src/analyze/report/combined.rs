@@ -9,8 +9,8 @@ use abbe::analysis::{Budget, Combined, Figures, Measurand, MonteCarlo, SourceErr
 use abbe_spec::Spec;
 use serde::Serialize;
 
-use super::error_sites::{ErrorSite, ErrorSites};
 use super::ledger::JudgedShares;
+use super::source_report::{ErrorSite, ErrorSites};
 use super::uncertainty_budget::UncertaintyBudget;
 use crate::number::Named;
 

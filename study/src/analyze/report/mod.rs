@@ -1,13 +1,12 @@
 //! Report of an analysis.
 //!
-//! Each file is one part of it: `source_report` holds each source alone, `combined` all sources,
-//! the draws and rows 4–6, `ledger` the ranking and the parts of the sources, `tolerance_verdict`
-//! the verdicts, `uncertainty_budget` the budget after the GUM, `comparison` the published figures,
-//! and `error_sites` the names of configurations.
+//! Each file is one part of it: `source_report` holds each source alone and the names of
+//! configurations, `combined` all sources, the draws and rows 4–6, `ledger` the ranking and the
+//! parts of the sources, `tolerance_verdict` the verdicts, `uncertainty_budget` the budget after the
+//! GUM, and `comparison` the published figures.
 
 mod combined;
 mod comparison;
-mod error_sites;
 mod ledger;
 mod source_report;
 mod tolerance_verdict;
@@ -25,9 +24,9 @@ pub use combined::{
     OrientationSource, Radii, RootMeanSquares,
 };
 pub use comparison::{Agreement, Comparison};
-pub(super) use error_sites::ErrorSites;
 pub(super) use ledger::JudgedShares;
 pub use ledger::{Ledger, LedgerEntry};
+pub(super) use source_report::ErrorSites;
 pub use source_report::{Quantity, SourceReport};
 pub use tolerance_verdict::{
     CompensatedVerdicts, CompensationBasis, MachineVerdicts, ToleranceVerdict, Verdict, Verdicts,
@@ -38,7 +37,7 @@ pub use uncertainty_budget::{SourceUncertainty, UncertaintyBudget};
 use super::compensated::CompensatedErrors;
 use super::figures::Figures;
 use super::first_order::FirstOrder;
-use super::loop_condition::LoopCondition;
+use super::unreachable::LoopCondition;
 use super::unreachable::UnreachableReason;
 use crate::bound::CertifiedNorms;
 use crate::study_file::{CombinedFigure, Criterion, PublishedResidual, Study, Subject};

@@ -3,7 +3,7 @@
 use abbe::analysis::{Budget, Compliance, ErrorDistribution, Extreme, Measurand, PROBABILITY_ERROR, Yield};
 use serde::Serialize;
 
-use super::error_sites::ErrorSites;
+use super::source_report::ErrorSites;
 use crate::number::Named;
 use crate::study_file::{Criterion, JudgedMachine, Study};
 

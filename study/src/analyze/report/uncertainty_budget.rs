@@ -5,8 +5,7 @@ use abbe::analysis::{COVERAGE, Compliance, Contribution, Measurand, Statement};
 use abbe_spec::{Source, Spec};
 use serde::{Serialize, Serializer};
 
-use super::error_sites::ErrorSites;
-use super::source_report::{Quantity, SourceValue};
+use super::source_report::{ErrorSites, Quantity, SourceValue};
 use crate::number::Named;
 
 /// Uncertainty budget at the configuration with the largest combined standard uncertainty of the
