@@ -7,9 +7,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::blocks::by_blocks;
 use super::clustered::Known;
 use super::fit::REJECTED;
+use super::linearize::by_blocks;
 use super::robust::robust_scale_after;
 use super::solver::{Residuals, Solver};
 use super::statistics::f_beyond;
