@@ -168,7 +168,7 @@ impl Solver<'_> {
             let sigma = (self.cost_of_data() / (n - p).max(1.0)).sqrt();
             Ok((self.covariance(sigma), sigma, n - p))
         };
-        let Some(l) = self.half() else { return plain() };
+        let Some(l) = self.problem.half() else { return plain() };
         // Wᵀ W = Lᵀ Σ S_cᵀ S_c L.
         let w = sums.finish().columns(0, self.x.len()) * &l;
         let shared = (between - alone * (m - p)) / (n - w.norm_squared()).max(1.0);
@@ -187,7 +187,7 @@ impl Solver<'_> {
     /// correlation.
     fn sandwich(&self, groups: &[&[usize]], n: usize) -> Result<(DMatrix<f64>, f64), Failure> {
         let p = self.x.len();
-        let Some(l) = self.half() else {
+        let Some(l) = self.problem.half() else {
             return Ok((DMatrix::from_element(p, p, f64::INFINITY), f64::INFINITY));
         };
         let block = |_: usize, groups: &[&[usize]]| {
@@ -231,23 +231,16 @@ impl Solver<'_> {
         Ok((&l * meat * l.transpose(), (squares / n.max(1.0)).sqrt()))
     }
 
-    /// Returns L with `B = L Lᵀ`; none if that is singular.
-    pub(super) fn half(&self) -> Option<DMatrix<f64>> {
-        let p = self.x.len();
-        let root = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
-        root.solve_upper_triangular(&DMatrix::identity(root.nrows(), p))
-    }
-
     /// Returns the number of unknowns that the data determine: `tr B N`.
     pub(super) fn effective(&self) -> f64 {
-        let by_prior = self.half().map_or(0.0, |l| (&self.prior * l).norm_squared());
+        let by_prior = self.problem.half().map_or(0.0, |l| (&self.prior * l).norm_squared());
         self.x.len() as f64 - by_prior
     }
 
     /// Returns `B (σ² N + P) B`.
     pub(super) fn covariance(&self, sigma: f64) -> DMatrix<f64> {
         let p = self.x.len();
-        let Some(l) = self.half() else { return DMatrix::from_element(p, p, f64::INFINITY) };
+        let Some(l) = self.problem.half() else { return DMatrix::from_element(p, p, f64::INFINITY) };
         let prior = &self.prior * &l;
         let meat = prior.tr_mul(&prior) * (1.0 - sigma * sigma);
         &l * (meat + DMatrix::identity(l.ncols(), l.ncols()) * (sigma * sigma)) * l.transpose()

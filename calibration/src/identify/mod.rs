@@ -100,7 +100,6 @@ mod solver;
 mod statistics;
 mod tool_points;
 mod triangle;
-mod values;
 mod variance;
 
 #[cfg(test)]
@@ -127,7 +126,7 @@ pub use instrument::{
 };
 pub use model::{Model, ReferenceLength, Role, Station, Unknown};
 pub use moved_place::{MovedPlace, moved_places};
-pub use observation::{Approach, Measurement, Observation, Uncertainty};
+pub use observation::{Approach, Inputs, Measurement, Observation, Points, Uncertainty, Values};
 pub use profile::{Profile, ProfileBasis, ProfileJoint, Profiles, fit_profiles};
 pub use registration::{Registration, register, register_pairs};
 pub use robust::{Loss, robust_scale};
@@ -135,5 +134,4 @@ pub use select::{CandidateTerms, ModelTerm, Selection, select};
 pub use simulate::{Chance, Simulated, joints_at_values, simulate};
 pub use statistics::{FTest, deviation_beyond, f_beyond, f_test, student_beyond, student_factor};
 pub use tool_points::ToolPoints;
-pub use values::{Inputs, Points, Values};
 pub use variance::{VarianceComponent, variance_components};

@@ -229,7 +229,7 @@ impl Solver<'_> {
 
     /// Returns the largest of these unknowns that is certain, in its prior standard deviations.
     fn largest(&self, basis: &Basis, scaled: &[usize], noise: f64) -> f64 {
-        let Some(half) = self.half() else { return 0.0 };
+        let Some(half) = self.problem.half() else { return 0.0 };
         let size = |i: usize| {
             let x = self.x[i].abs();
             let is_certain = x > CERTAIN * noise * half.row(i).norm();

@@ -76,6 +76,13 @@ impl Problem {
         Self { a: r.columns(0, p).into_owned(), b: r.column(p).into_owned() }
     }
 
+    /// Returns L with `(AᵀA)⁻¹ = L Lᵀ`; none if that is singular.
+    pub(super) fn half(&self) -> Option<DMatrix<f64>> {
+        let p = self.a.ncols();
+        let root = self.a.rows(0, p.min(self.a.nrows()));
+        root.solve_upper_triangular(&DMatrix::identity(root.nrows(), p))
+    }
+
     /// Returns the decrease of `‖b‖²` at the minimum: `‖Qᵀb‖²`, with `A` its own `R`.
     pub(super) fn promise(&self) -> f64 {
         self.b.rows(0, self.a.ncols().min(self.b.len())).norm_squared()
