@@ -1,9 +1,8 @@
 //! Computes `J_e diag(σ²) J_eᵀ` without `J_e`.
 
-use super::accumulate::Accumulated;
+use super::accumulate::{Accumulated, vectors};
 use super::local::Local;
 use super::rows::Rows;
-use super::six::vectors;
 use crate::graph::{Graph, Node, Vector};
 
 type Matrix = [Vector; 3];

@@ -9,8 +9,8 @@ use abbe_core::Component;
 use abbe_spec::expr::{Function, Motion, Symbol, motion};
 use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
 
+use super::accumulate::{six, vectors};
 use super::deviation::transform_twists;
-use super::six::{six, vectors};
 use super::tree::{Parts, Reaction, length_slopes};
 use super::walk::transform;
 use crate::graph::{Frame, Graph, Node, Vector};

@@ -15,8 +15,8 @@ use abbe_spec::expr::Symbol;
 use super::loops::RealNodes;
 use super::parts::Parts;
 use super::units::Units;
-use crate::chain::implicit::Implicit;
 use crate::chain::kinematics::of_repeatable;
+use crate::chain::remainder::Implicit;
 use crate::chain::sources::Causes;
 use crate::graph::{Graph, Node, Vector};
 
