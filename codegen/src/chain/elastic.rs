@@ -68,8 +68,8 @@ impl<'a> Loads<'a> {
         let gravity = spec.gravity.as_ref();
         let gravity = gravity.map_or(zero, |gravity| gravity.each_ref().map(|entry| graph.lower(entry)));
         let gravity = local(graph, axes, gravity);
-        let view = View { frames, axes };
-        let acting = spec.loads.iter().map(|load| acting(graph, spec, load, &view, gravity)).collect();
+        let acting =
+            spec.loads.iter().map(|load| acting(graph, spec, load, (frames, axes), gravity)).collect();
         let mut weights = Vec::new();
         for effect in spec.enabled_sources().flat_map(|source| &source.effects) {
             let Cause::Beam(beam) = &effect.cause else { continue };
@@ -259,14 +259,15 @@ impl<'a> Loads<'a> {
         six(local(graph, axes, force), local(graph, axes, moment))
     }
 }
+/// Returns a load with the poses of the frames relative to B and the axes of B in `F_0`.
 
-/// Poses relative to B, and the axes of B in `F_0`.
-struct View<'a> {
-    frames: &'a [Frame],
-    axes: &'a [Vector; 3],
-}
-
-fn acting(graph: &mut Graph, spec: &Spec, load: &Load, view: &View<'_>, gravity: Vector) -> Acting {
+fn acting(
+    graph: &mut Graph,
+    spec: &Spec,
+    load: &Load,
+    (frames, axes): (&[Frame], &[Vector; 3]),
+    gravity: Vector,
+) -> Acting {
     let zero = [graph.zero(); 3];
     let point = match &load.point {
         Point::Here(point) => point.each_ref().map(|coordinate| graph.lower(coordinate)),
@@ -275,8 +276,8 @@ fn acting(graph: &mut Graph, spec: &Spec, load: &Load, view: &View<'_>, gravity:
     let mut in_view = |vector: &Option<[_; 3]>| {
         let vector = vector.as_ref().map_or(zero, |vector| vector.each_ref().map(|entry| graph.lower(entry)));
         match load.axes {
-            Axes::Frame => graph.turn(&view.frames[load.frame].axes, vector),
-            Axes::Base => local(graph, view.axes, vector),
+            Axes::Frame => graph.turn(&frames[load.frame].axes, vector),
+            Axes::Base => local(graph, axes, vector),
         }
     };
     let (force, moment) = (in_view(&load.force), in_view(&load.moment));
@@ -361,13 +362,11 @@ fn beam_compliance(graph: &mut Graph, beam: &Beam, length: Node) -> Compliance {
     let turn = |axis: usize| index(Motion::Rotation, axis);
     let (a, b, c) = (beam.axis, beam.axis + 1, beam.axis + 2);
     let mut compliance = [[graph.zero(); 6]; 6];
-    if let Some(extension) = &beam.extension {
-        let stiffness = graph.lower(extension);
-        compliance[shift(a)][shift(a)] = graph.div(length, stiffness);
-    }
-    if let Some(torsion) = &beam.torsion {
-        let stiffness = graph.lower(torsion);
-        compliance[turn(a)][turn(a)] = graph.div(length, stiffness);
+    for (stiffness, along) in [(&beam.extension, shift(a)), (&beam.torsion, turn(a))] {
+        if let Some(stiffness) = stiffness {
+            let stiffness = graph.lower(stiffness);
+            compliance[along][along] = graph.div(length, stiffness);
+        }
     }
     // Bending about c displaces along b; bending about b along −c.
     for (along, about, stiffness, sign) in [(b, c, &beam.bending[1], 1.0), (c, b, &beam.bending[0], -1.0)] {

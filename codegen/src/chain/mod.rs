@@ -32,7 +32,6 @@ mod lower_pairs;
 mod magnitudes;
 mod minors;
 mod model;
-mod moments;
 mod real;
 mod remainder;
 mod rows;

@@ -27,13 +27,7 @@ impl Program {
 
     /// Returns the steps that compute the nodes as they are selected.
     pub(super) fn from_selection(graph: &Graph, outputs: &[Node], selection: Rc<Selection>) -> Self {
-        let mut program = Self {
-            steps: Vec::new(),
-            outputs: Vec::new(),
-            numbers: Vec::new(),
-            registers: 0,
-            uses: Vec::new(),
-        };
+        let mut program = Self::default();
         program.outputs = Writer::new(graph, outputs, selection, &mut program).outputs(outputs);
         program.count_uses();
         program.fuse();
@@ -56,7 +50,7 @@ impl Program {
 
     /// Moves all sine and cosine pairs whose angles use no function next to each other at the
     /// beginning, after the operands of their angles.
-    pub(super) fn sines_first(&mut self) {
+    fn sines_first(&mut self) {
         let mut plain = vec![false; self.registers];
         let mut pairs = vec![false; self.registers];
         for Step { register, action, .. } in &self.steps {
@@ -75,11 +69,8 @@ impl Program {
         let mut needed = vec![false; self.registers];
         for step in self.steps.iter().rev() {
             if pairs[step.register] || needed[step.register] {
-                for operand in step.action.operands() {
-                    if let Operand::Register(register) = operand {
-                        needed[register] = true;
-                    }
-                }
+                let operands = step.action.operands().filter_map(Operand::register);
+                operands.for_each(|register| needed[register] = true);
             }
         }
         self.steps.sort_by_key(|step| match (needed[step.register], pairs[step.register]) {
@@ -91,15 +82,13 @@ impl Program {
 
     /// Makes `a · b ± c` one step wherever nothing else uses the product. Of two products the first
     /// stays separate: `a · b + c · d` becomes `a.mul_add(b, c · d)`.
-    pub(super) fn fuse(&mut self) {
+    fn fuse(&mut self) {
         let mut product: Vec<Option<(Operand, Operand)>> = vec![None; self.registers];
         let mut fused = vec![false; self.registers];
         let returned = self.returned();
         for step in &mut self.steps {
-            let single = |operand: Operand| match operand {
-                Operand::Register(r) => product[r].map(|factors| (r, factors)),
-                _ => None,
-            };
+            let single =
+                |operand: Operand| operand.register().and_then(|r| product[r].map(|factors| (r, factors)));
             let found = match step.action {
                 Action::Mul(a, b) => {
                     if self.uses[step.register] == 1 && !returned[step.register] && step.name.is_none() {
@@ -130,11 +119,8 @@ impl Program {
     /// Returns which registers are results.
     pub(crate) fn returned(&self) -> Vec<bool> {
         let mut returned = vec![false; self.registers];
-        for output in &self.outputs {
-            if let Operand::Register(register) = output {
-                returned[*register] = true;
-            }
-        }
+        let outputs = self.outputs.iter().filter_map(|output| output.register());
+        outputs.for_each(|register| returned[register] = true);
         returned
     }
 
@@ -159,6 +145,14 @@ impl Program {
 }
 
 impl Operand {
+    /// Returns its register; none for symbols and constants.
+    pub fn register(self) -> Option<usize> {
+        match self {
+            Self::Register(register) => Some(register),
+            _ => None,
+        }
+    }
+
     fn renumbered(self, numbers: &[usize]) -> Self {
         match self {
             Self::Register(register) => Self::Register(numbers[register]),

@@ -15,7 +15,6 @@
 //! forces that close the loops of a loaded machine, and `curve` the tool point while errors grow.
 
 mod closure;
-mod curve;
 mod factored;
 mod loops;
 mod parts;
@@ -25,7 +24,7 @@ mod units;
 mod view;
 
 pub(super) use closure::{add_lengths, length_slopes};
-pub(super) use curve::curvature;
+pub(super) use loops::curvature;
 pub(crate) use loops::{ClosedLoops, RealNodes};
 pub(super) use parts::Parts;
 pub(crate) use parts::{Reaction, passive_by_symbol};
