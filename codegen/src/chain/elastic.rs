@@ -259,8 +259,8 @@ impl<'a> Loads<'a> {
         six(local(graph, axes, force), local(graph, axes, moment))
     }
 }
-/// Returns a load with the poses of the frames relative to B and the axes of B in `F_0`.
 
+/// Returns a load with the poses of the frames relative to B and the axes of B in `F_0`.
 fn acting(
     graph: &mut Graph,
     spec: &Spec,
