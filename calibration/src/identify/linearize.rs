@@ -51,7 +51,7 @@ pub(super) fn with_priors(mut triangle: Triangle, prior: &DMatrix<f64>, x: &[f64
     for (row, value) in prior.transpose().column_iter().zip((prior * DVector::from_column_slice(x)).iter()) {
         triangle.push(row.as_slice(), -value, 1.0);
     }
-    Problem::from_triangle(&triangle.finish(), &(0..x.len()).collect::<Vec<_>>())
+    Problem::from_triangle(triangle.finish())
 }
 
 /// Number of rows in a block: fixed, so that results do not depend on the number of threads.

@@ -66,13 +66,10 @@ pub(super) struct Problem {
 }
 
 impl Problem {
-    /// Selects columns of a finished triangle; a column may occur repeatedly.
-    pub(super) fn from_triangle(triangle: &DMatrix<f64>, columns: &[usize]) -> Self {
-        let last = triangle.ncols() - 1;
-        let columns_and_right: Vec<usize> = columns.iter().copied().chain([last]).collect();
-        let full = triangle.select_columns(&columns_and_right);
-        let r = full.qr().unpack_r();
-        let p = columns.len();
+    /// Returns the problem of a finished triangle, whose last column is the right side.
+    pub(super) fn from_triangle(triangle: DMatrix<f64>) -> Self {
+        let p = triangle.ncols() - 1;
+        let r = triangle.qr().unpack_r();
         Self { a: r.columns(0, p).into_owned(), b: r.column(p).into_owned() }
     }
 
