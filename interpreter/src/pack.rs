@@ -2,20 +2,15 @@
 
 use std::collections::{HashMap, HashSet};
 
-use abbe::Function;
 use abbe_codegen::program::{Action, Block, Operand, Program, Role, Routine, Routines, Row, Stage, Step};
 use abbe_spec::expr::Symbol;
 
 use crate::operation::{Operation, Part, Slot, Tape, Turn, chains};
 
 impl Tape {
-    /// Packs a function. Arguments and results are concatenated, and the margin is last.
-    pub(crate) fn new(routines: &Routines, function: Function) -> Self {
-        Self::of_routine(routines, routines.function(function))
-    }
-
-    /// Packs a routine, which may call those of `routines`.
-    pub(crate) fn of_routine(routines: &Routines, routine: &Routine) -> Self {
+    /// Packs a routine, which may call those of `routines`. Arguments and results are concatenated,
+    /// and the margin is last.
+    pub(crate) fn new(routines: &Routines, routine: &Routine) -> Self {
         let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
         let arguments = given.map(|array| array.len(&routines.description)).sum();
         let mut constants = Constants::default();
