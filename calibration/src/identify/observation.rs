@@ -1,5 +1,5 @@
-//! Observations: commanded configurations and their measurements, with short vectors that are stored
-//! without an allocation.
+//! Observations: commanded configurations and their measurements, with short vectors that are
+//! stored without an allocation.
 
 use std::ops::{Deref, DerefMut};
 

@@ -68,8 +68,8 @@ impl<'a> Loads<'a> {
         let gravity = spec.gravity.as_ref();
         let gravity = gravity.map_or(zero, |gravity| gravity.each_ref().map(|entry| graph.lower(entry)));
         let gravity = local(graph, axes, gravity);
-        let acting =
-            spec.loads.iter().map(|load| acting(graph, spec, load, (frames, axes), gravity)).collect();
+        let view = View { frames, axes };
+        let acting = spec.loads.iter().map(|load| acting(graph, spec, load, &view, gravity)).collect();
         let mut weights = Vec::new();
         for effect in spec.enabled_sources().flat_map(|source| &source.effects) {
             let Cause::Beam(beam) = &effect.cause else { continue };
@@ -260,14 +260,13 @@ impl<'a> Loads<'a> {
     }
 }
 
-/// Returns a load with the poses of the frames relative to B and the axes of B in `F_0`.
-fn acting(
-    graph: &mut Graph,
-    spec: &Spec,
-    load: &Load,
-    (frames, axes): (&[Frame], &[Vector; 3]),
-    gravity: Vector,
-) -> Acting {
+/// Poses relative to B, and the axes of B in `F_0`.
+struct View<'a> {
+    frames: &'a [Frame],
+    axes: &'a [Vector; 3],
+}
+
+fn acting(graph: &mut Graph, spec: &Spec, load: &Load, view: &View<'_>, gravity: Vector) -> Acting {
     let zero = [graph.zero(); 3];
     let point = match &load.point {
         Point::Here(point) => point.each_ref().map(|coordinate| graph.lower(coordinate)),
@@ -276,8 +275,8 @@ fn acting(
     let mut in_view = |vector: &Option<[_; 3]>| {
         let vector = vector.as_ref().map_or(zero, |vector| vector.each_ref().map(|entry| graph.lower(entry)));
         match load.axes {
-            Axes::Frame => graph.turn(&frames[load.frame].axes, vector),
-            Axes::Base => local(graph, axes, vector),
+            Axes::Frame => graph.turn(&view.frames[load.frame].axes, vector),
+            Axes::Base => local(graph, view.axes, vector),
         }
     };
     let (force, moment) = (in_view(&load.force), in_view(&load.moment));
