@@ -83,7 +83,8 @@ impl Interpreter {
 
     /// Returns the tape of a function.
     fn tape(&self, function: Function) -> &Tape {
-        self.code.tapes[function as usize].get_or_init(|| Tape::new(&self.code.routines, function))
+        let routines = &self.code.routines;
+        self.code.tapes[function as usize].get_or_init(|| Tape::new(routines, routines.function(function)))
     }
 
     /// Evaluates a function: arguments and results are concatenated, and the margin is last. Only
@@ -129,7 +130,7 @@ impl Interpreter {
         self.run(function, arguments)?;
         let tape = self.code.derivatives[function as usize].get_or_init(|| {
             let routine = parameter_derivatives(&self.spec, function)?;
-            Some(Tape::of_routine(&self.code.routines, &routine))
+            Some(Tape::new(&self.code.routines, &routine))
         });
         let Some(tape) = tape else { return Ok(None) };
         let values = evaluated(tape, arguments.iter().copied().flatten());

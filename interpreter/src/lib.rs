@@ -20,10 +20,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `chains` groups the steps of a program, each chain an `operation` on slots. `pack` builds a
-//! tape of them, and `lanes` evaluates it.
+//! `operation` groups the steps of a program in chains, each one operation on slots. `pack` builds
+//! a tape of them, and `lanes` evaluates it.
 
-mod chains;
 mod interpreter;
 mod lanes;
 mod operation;

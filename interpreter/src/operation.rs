@@ -1,10 +1,12 @@
-//! Operations on slots: single ones, or chains of them.
+//! Operations on slots, single ones or chains of them, and tapes: functions whose operands are all
+//! slots of one array.
 //!
-//! Tapes: functions whose operands are all slots of one array.
+//! Each operation of a chain reads the result of the one before it. Nothing else reads that result,
+//! so it never leaves the registers.
 
 use std::sync::Arc;
 
-use abbe_codegen::program::{Action, Operand, Step};
+use abbe_codegen::program::{Action, Operand, Program, Step};
 use abbe_spec::expr::Table;
 
 /// Index of a value of a block.
@@ -171,3 +173,46 @@ pub(crate) struct Tape {
     /// Number of slots of the arguments.
     pub(crate) arguments: usize,
 }
+
+/// Returns the steps of a program in execution order, grouped in chains. Within a chain each step
+/// reads the result of the step before it, and no other step does.
+pub(crate) fn chains(program: &Program) -> Vec<Vec<usize>> {
+    let mut maker = vec![None; program.registers];
+    // The chain that ends at a step, until another step extends it.
+    let mut ending: Vec<Vec<usize>> = Vec::with_capacity(program.steps.len());
+    for (at, step) in program.steps.iter().enumerate() {
+        let mut longest: Option<usize> = None;
+        for operand in step.action.operands().filter(|_| is_link(step.action)) {
+            let Operand::Register(register) = operand else { continue };
+            let Some(before) = maker[register].filter(|_| program.uses[register] == 1) else { continue };
+            let length = |step: usize| ending[step].len();
+            if longest.is_none_or(|longest| length(before) > length(longest)) {
+                longest = Some(before);
+            }
+        }
+        let mut chain = longest.map_or_else(Vec::new, |before| std::mem::take(&mut ending[before]));
+        chain.push(at);
+        ending.push(chain);
+        // A chain runs at the position of its last step, where all other operands are available.
+        maker[step.register] = is_link(step.action).then_some(at);
+    }
+    ending.retain(|chain| !chain.is_empty());
+    ending
+}
+
+/// Returns `true` if an action may be part of a chain: fast operations that leave registers free.
+fn is_link(action: Action) -> bool {
+    matches!(
+        action,
+        Action::Neg(_)
+            | Action::Add(..)
+            | Action::Sub(..)
+            | Action::Mul(..)
+            | Action::MulAdd(..)
+            | Action::MulSub(..)
+            | Action::NegMulAdd(..)
+    )
+}
+
+#[cfg(test)]
+mod tests;

@@ -2,21 +2,15 @@
 
 use std::collections::{HashMap, HashSet};
 
-use abbe::Function;
 use abbe_codegen::program::{Action, Block, Operand, Program, Role, Routine, Routines, Row, Stage, Step};
 use abbe_spec::expr::Symbol;
 
-use crate::chains::chains;
-use crate::operation::{Operation, Part, Slot, Tape, Turn};
+use crate::operation::{Operation, Part, Slot, Tape, Turn, chains};
 
 impl Tape {
-    /// Packs a function. Arguments and results are concatenated, and the margin is last.
-    pub(crate) fn new(routines: &Routines, function: Function) -> Self {
-        Self::of_routine(routines, routines.function(function))
-    }
-
-    /// Packs a routine, which may call those of `routines`.
-    pub(crate) fn of_routine(routines: &Routines, routine: &Routine) -> Self {
+    /// Packs a routine, which may call those of `routines`. Arguments and results are concatenated,
+    /// and the margin is last.
+    pub(crate) fn new(routines: &Routines, routine: &Routine) -> Self {
         let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
         let arguments = given.map(|array| array.len(&routines.description)).sum();
         let mut constants = Constants::default();
@@ -339,29 +333,20 @@ impl Registers {
     fn new(program: &Program, chains: &[Vec<usize>]) -> Self {
         let mut last_use = vec![0; program.registers];
         for (at, chain) in chains.iter().enumerate() {
-            for operand in chain.iter().flat_map(|step| program.steps[*step].action.operands()) {
-                if let Operand::Register(register) = operand {
-                    last_use[register] = at;
-                }
-            }
+            let operands = chain.iter().flat_map(|step| program.steps[*step].action.operands());
+            operands.filter_map(Operand::register).for_each(|register| last_use[register] = at);
         }
-        for output in &program.outputs {
-            if let Operand::Register(register) = *output {
-                last_use[register] = usize::MAX;
-            }
-        }
+        let outputs = program.outputs.iter().filter_map(|output| output.register());
+        outputs.for_each(|register| last_use[register] = usize::MAX);
         Self { slots: vec![0; program.registers], last_use }
     }
 
     /// Frees the slots of registers that a chain uses for the last time.
     fn release(&self, steps: &[&Step], at: usize, free: &mut Vec<Slot>) {
-        let ends = |operand: Operand| match operand {
-            Operand::Register(register) => (self.last_use[register] == at).then_some(register),
-            _ => None,
-        };
+        let ends = |register: &usize| self.last_use[*register] == at;
         let made: Vec<usize> = steps[..steps.len() - 1].iter().map(|step| step.register).collect();
-        let mut released: Vec<usize> =
-            steps.iter().flat_map(|step| step.action.operands()).filter_map(ends).collect();
+        let operands = steps.iter().flat_map(|step| step.action.operands());
+        let mut released: Vec<usize> = operands.filter_map(Operand::register).filter(ends).collect();
         released.sort_unstable();
         released.dedup();
         let in_slots = released.into_iter().filter(|register| !made.contains(register));

@@ -206,11 +206,9 @@ fn covariance(kind: Kind, best: &Fitted, until: Option<f64>, t: &[f64], variance
     // its level.
     let from_the_first = t.iter().filter(|t| **t <= best.at).count() < 2;
     if kind != Kind::Drift || from_the_first {
+        normal.fill_row(1, 0.0);
+        normal.fill_column(1, 0.0);
         normal[(1, 1)] = 1e300;
-        normal[(0, 1)] = 0.0;
-        normal[(1, 0)] = 0.0;
-        normal[(1, 2)] = 0.0;
-        normal[(2, 1)] = 0.0;
     }
     let inverse = normal.try_inverse().unwrap_or(Matrix3::repeat(f64::INFINITY)) * variance;
     [[inverse[(1, 1)], inverse[(1, 2)]], [inverse[(2, 1)], inverse[(2, 2)]]]

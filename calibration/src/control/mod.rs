@@ -6,7 +6,6 @@
 //! the time, kind and size of a drift or jump, each with its uncertainty.
 
 mod change;
-mod distributions;
 mod ewma;
 mod self_starting;
 
@@ -14,6 +13,5 @@ mod self_starting;
 mod tests;
 
 pub use change::{Change, Kind};
-pub use distributions::normal_quantile;
 pub use ewma::{ewma_limit, ewma_run_length};
-pub use self_starting::SelfStarting;
+pub use self_starting::{SelfStarting, normal_quantile};

@@ -60,8 +60,7 @@ pub fn between_blocks(
     let (kept, x) = fit.of_kept(model);
     let p = x.len();
     let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &fit.prior, &x);
-    let root = problem.a.rows(0, p.min(problem.a.nrows()));
-    let Some(l) = root.solve_upper_triangular(&DMatrix::identity(root.nrows(), p)) else { return Ok(None) };
+    let Some(l) = problem.half() else { return Ok(None) };
     let groups = Configurations::new(data).rows();
     let groups = groups.slices();
     let block = |block: usize| {

@@ -6,7 +6,7 @@
 //!
 //! - One point per configuration, without repeated visits: all numbers are independent,
 //!   `σ² = rᵀr/(n − p)`, `p = tr B N`, and `C = B (σ² N + P) B`.
-//! - Views of a camera: the same, if the noise of single pixels [explains](super::views) the
+//! - Views of a camera: the same, if the noise of single pixels explains the
 //!   residuals; otherwise as poses.
 //! - Points visited repeatedly: visits share the error of the model at the configuration,
 //!   `V_c = τ² 1 1ᵀ + σ_w² I` along each axis. With `S_c` the sum of the rows of `J` of a
@@ -21,15 +21,22 @@
 //! Few degrees of freedom `ν` of the residuals determine σ poorly. The stated uncertainties are
 //! prior information worth `ν_0` degrees of freedom, and the covariance is the mean of that with
 //! σ = 1 and `C`, weighted by `ν_0` and `ν`.
+//!
+//! All pixels of a view share the error that the model has there: a displacement of the board, and
+//! errors of unknown intrinsic parameters. With `Q_c` an orthonormal basis of the columns of `J_c`,
+//! which such an error changes, `between = Σ |Q_cᵀ r_c|²` contains it, and `within = Σ |r_c|² −
+//! between` is noise alone. With n numbers, m columns of all `Q_c` and p unknowns,
+//! `F = (between/(m − p)) / (within/(n − m))` has an F-distribution if the noise of single pixels
+//! explains the residuals.
 
 use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DMatrixView, DVector, DVectorView};
 
-use super::blocks::by_blocks;
+use super::linearize::by_blocks;
 use super::solver::Solver;
 use super::triangle::Triangle;
-use super::{Configurations, Failure};
+use super::{Configurations, Failure, Measurement, f_test};
 use abbe_analysis::decompose::symmetric_eigen;
 
 /// Independence assumption of a covariance.
@@ -161,7 +168,7 @@ impl Solver<'_> {
             let sigma = (self.cost_of_data() / (n - p).max(1.0)).sqrt();
             Ok((self.covariance(sigma), sigma, n - p))
         };
-        let Some(l) = self.half() else { return plain() };
+        let Some(l) = self.problem.half() else { return plain() };
         // Wᵀ W = Lᵀ Σ S_cᵀ S_c L.
         let w = sums.finish().columns(0, self.x.len()) * &l;
         let shared = (between - alone * (m - p)) / (n - w.norm_squared()).max(1.0);
@@ -180,7 +187,7 @@ impl Solver<'_> {
     /// correlation.
     fn sandwich(&self, groups: &[&[usize]], n: usize) -> Result<(DMatrix<f64>, f64), Failure> {
         let p = self.x.len();
-        let Some(l) = self.half() else {
+        let Some(l) = self.problem.half() else {
             return Ok((DMatrix::from_element(p, p, f64::INFINITY), f64::INFINITY));
         };
         let block = |_: usize, groups: &[&[usize]]| {
@@ -224,26 +231,53 @@ impl Solver<'_> {
         Ok((&l * meat * l.transpose(), (squares / n.max(1.0)).sqrt()))
     }
 
-    /// Returns L with `B = L Lᵀ`; none if that is singular.
-    pub(super) fn half(&self) -> Option<DMatrix<f64>> {
-        let p = self.x.len();
-        let root = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
-        root.solve_upper_triangular(&DMatrix::identity(root.nrows(), p))
-    }
-
     /// Returns the number of unknowns that the data determine: `tr B N`.
     pub(super) fn effective(&self) -> f64 {
-        let by_prior = self.half().map_or(0.0, |l| (&self.prior * l).norm_squared());
+        let by_prior = self.problem.half().map_or(0.0, |l| (&self.prior * l).norm_squared());
         self.x.len() as f64 - by_prior
     }
 
     /// Returns `B (σ² N + P) B`.
     pub(super) fn covariance(&self, sigma: f64) -> DMatrix<f64> {
         let p = self.x.len();
-        let Some(l) = self.half() else { return DMatrix::from_element(p, p, f64::INFINITY) };
+        let Some(l) = self.problem.half() else { return DMatrix::from_element(p, p, f64::INFINITY) };
         let prior = &self.prior * &l;
         let meat = prior.tr_mul(&prior) * (1.0 - sigma * sigma);
         &l * (meat + DMatrix::identity(l.ncols(), l.ncols()) * (sigma * sigma)) * l.transpose()
+    }
+
+    /// Returns whether these rows are views of a camera whose pixels have independent errors.
+    fn has_independent_pixels(&self, rows: &[usize]) -> Result<bool, Failure> {
+        let Some(camera) = &self.model.camera else { return Ok(false) };
+        let is_view = |i: &usize| matches!(self.data[*i].measured, Measurement::Readings(_));
+        if !rows.iter().all(is_view) {
+            return Ok(false);
+        }
+        let p = self.x.len();
+        let block = |_: usize, rows: &[usize]| {
+            let mut at = self.at();
+            let (mut between, mut all, mut m, mut n) = (0.0, 0.0, 0, 0);
+            for i in rows {
+                let (mut columns, mut residuals) = (Vec::new(), Vec::new());
+                let weight = self.weights[*i].sqrt();
+                at.linear(&self.data[*i], |residual, row| {
+                    columns.extend(row.iter().map(|value| weight * value));
+                    residuals.push(weight * residual);
+                })?;
+                let r = DVector::from_vec(residuals);
+                let j = DMatrix::from_row_slice(r.len(), p, &columns);
+                let rank = camera.rank().min(r.len()).min(p);
+                let q = j.col_piv_qr().q();
+                between += q.columns(0, rank).tr_mul(&r).norm_squared();
+                (all, m, n) = (all + r.norm_squared(), m + rank, n + r.len());
+            }
+            Ok((between, all, m, n))
+        };
+        let (mut between, mut all, mut m, mut n) = (0.0, 0.0, 0, 0);
+        by_blocks(rows, block, |part| {
+            (between, all, m, n) = (between + part.0, all + part.1, m + part.2, n + part.3);
+        })?;
+        Ok(m > p && n > m && f_test(all, all - between, m - p, n - m).p > LEVEL)
     }
 }
 
@@ -280,6 +314,9 @@ fn root(g: DMatrix<f64>, v: &DVector<f64>) -> (DVector<f64>, f64, f64) {
     let raised = along.zip_map(&rest, |along, rest| if rest < 1e-9 { 0.0 } else { along / rest.sqrt() });
     (&eigen.eigenvectors * &raised, raised.norm_squared(), spent)
 }
+
+/// Significance level at which views have errors in common beyond the noise of their pixels.
+const LEVEL: f64 = 0.01;
 
 #[cfg(test)]
 mod tests;

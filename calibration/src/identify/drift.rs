@@ -13,7 +13,7 @@ use core::borrow::Borrow;
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 
-use super::blocks::by_blocks;
+use super::linearize::by_blocks;
 use super::{Configurations, Failure, Model, Observation};
 use abbe_analysis::sampling::{norm, stream};
 

@@ -1,4 +1,4 @@
-//! Nonlinear least squares on the exact model.
+//! Nonlinear least squares on the exact model, and its options.
 
 use nalgebra::DMatrix;
 
@@ -6,13 +6,41 @@ use super::clustered::{Independent, Known};
 use super::identifiable::Columns;
 use super::prior::Basis;
 use super::solver::Solver;
-use super::{Configurations, Failure, Identifiable, Model, Observation, Options, Unknown, identifiable};
+use super::{Configurations, Failure, Identifiable, Loss, Model, Observation, Unknown, identifiable};
 
 /// Observations with a smaller weight count as rejected.
 pub(super) const REJECTED: f64 = 0.05;
 
 /// Scale of priors that are scaled, up to which an unknown counts as one that the data can show.
 const LARGE: f64 = 10.0;
+
+/// Options of a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Point at which the information matrix is evaluated; the nominal machine, zero, if empty.
+    ///
+    /// A target exactly on the last axis hides more unknowns than a real one beside it, so the
+    /// solution for base and tool alone is a good choice.
+    pub at: Vec<f64>,
+    /// Loss function of the residuals.
+    pub loss: Loss,
+    /// Prior standard deviations about zero, by index of the unknown; flat where there is none, see
+    /// [`Model::priors`](super::Model::priors).
+    ///
+    /// With priors, all unknowns are fitted. If empty, those that the data cannot distinguish from
+    /// others are fixed at zero.
+    pub priors: Vec<Option<f64>>,
+    /// Indices of unknowns whose priors are known up to a common factor, which the data choose.
+    pub scaled: Vec<usize>,
+    /// Largest number of iterations.
+    pub steps: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { at: Vec::new(), loss: Loss::Squares, priors: Vec::new(), scaled: Vec::new(), steps: 100 }
+    }
+}
 
 /// Result of a fit.
 #[derive(Clone, Debug, PartialEq)]
@@ -184,7 +212,7 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let mut scale = 1.0;
     if let Some(basis) = basis.filter(|_| !options.scaled.is_empty()) {
         scale = solver.scale_of_prior(&basis, &options.scaled);
-        (solver.prior, solver.linearized) = (basis.rows(&options.scaled, scale), false);
+        solver.set_prior(basis.rows(&options.scaled, scale));
         known = solver.solve(options)?;
     }
     let cost = solver.cost_of_data();

@@ -1,11 +1,12 @@
-//! Linearization of the residuals of all observations, with priors.
+//! Linearization of the residuals of all observations, with priors: rows in blocks of a fixed size,
+//! one per thread.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::blocks::by_blocks;
 use super::evaluated_model::EvaluatedModel;
 use super::triangle::{Problem, Triangle};
 use super::{Failure, Model, Observation};
+use abbe_analysis::in_order;
 
 /// Accumulates residuals and derivatives of all observations and known distances at `x`, with
 /// optional weights for each observation.
@@ -50,5 +51,22 @@ pub(super) fn with_priors(mut triangle: Triangle, prior: &DMatrix<f64>, x: &[f64
     for (row, value) in prior.transpose().column_iter().zip((prior * DVector::from_column_slice(x)).iter()) {
         triangle.push(row.as_slice(), -value, 1.0);
     }
-    Problem::from_triangle(&triangle.finish(), &(0..x.len()).collect::<Vec<_>>())
+    Problem::from_triangle(triangle.finish())
+}
+
+/// Number of rows in a block: fixed, so that results do not depend on the number of threads.
+const ROWS: usize = 512;
+
+/// Computes `make(first, rows)` for each block in parallel, with the index of its first row, and
+/// takes the results in order.
+pub(super) fn by_blocks<R: Sync, T: Send>(
+    rows: &[R],
+    make: impl Fn(usize, &[R]) -> Result<T, Failure> + Sync,
+    take: impl FnMut(T),
+) -> Result<(), Failure> {
+    let block = |block| {
+        let first = block * ROWS;
+        make(first, &rows[first..rows.len().min(first + ROWS)])
+    };
+    in_order(rows.len().div_ceil(ROWS), block, take)
 }

@@ -64,12 +64,9 @@
 //! # }
 //! ```
 
-mod acceleration;
 mod between_blocks;
 mod between_stations;
-mod blocks;
 mod board_pose;
-mod candidate_terms;
 mod clustered;
 mod columns;
 mod configurations;
@@ -87,14 +84,10 @@ mod hand_eye;
 mod identifiable;
 mod information;
 mod instrument;
-mod joints_at_values;
-mod known_distance;
-mod left_out;
 mod linearize;
 mod model;
 mod moved_place;
 mod observation;
-mod options;
 mod outliers;
 mod prior;
 mod profile;
@@ -104,14 +97,10 @@ mod robust;
 mod select;
 mod simulate;
 mod solver;
-mod station;
 mod statistics;
 mod tool_points;
 mod triangle;
-mod unknown;
-mod values;
 mod variance;
-mod views;
 
 #[cfg(test)]
 mod tests;
@@ -119,7 +108,6 @@ mod tests;
 pub use between_blocks::{BetweenBlocks, between_blocks};
 pub use between_stations::{BetweenStations, between_stations};
 pub use board_pose::BoardView;
-pub use candidate_terms::{CandidateTerms, ModelTerm};
 pub use clustered::Independent;
 pub use configurations::Configurations;
 pub use design::{Design, Objective, optimal, whole};
@@ -127,7 +115,7 @@ pub use drift::{Drift, drift};
 pub use evaluated_model::EvaluatedModel;
 pub use failure::Failure;
 pub use figures::{Comparison, Distances, Figures};
-pub use fit::{Fit, fit};
+pub use fit::{Fit, Options, fit};
 pub use folds::{Folds, cross_validate};
 pub use groups::{Group, Reason, groups};
 pub use identifiable::{Identifiable, THRESHOLD, Weak, identifiable, knowable};
@@ -136,19 +124,14 @@ pub use instrument::{
     CAMERA, CONTACT, Camera, Fixture, FixtureGeometry, INSTRUMENTS, INTRINSICS, InstrumentKind,
     KnownDistance, Observable, Reference, SizeInformation,
 };
-pub use joints_at_values::joints_at_values;
-pub use model::{Model, ReferenceLength};
+pub use model::{Model, ReferenceLength, Role, Station, Unknown};
 pub use moved_place::{MovedPlace, moved_places};
-pub use observation::{Approach, Measurement, Observation, Uncertainty};
-pub use options::Options;
+pub use observation::{Approach, Inputs, Measurement, Observation, Points, Uncertainty, Values};
 pub use profile::{Profile, ProfileBasis, ProfileJoint, Profiles, fit_profiles};
 pub use registration::{Registration, register, register_pairs};
 pub use robust::{Loss, robust_scale};
-pub use select::{Selection, select};
-pub use simulate::{Chance, Simulated, simulate};
-pub use station::Station;
+pub use select::{CandidateTerms, ModelTerm, Selection, select};
+pub use simulate::{Chance, Simulated, joints_at_values, simulate};
 pub use statistics::{FTest, deviation_beyond, f_beyond, f_test, student_beyond, student_factor};
 pub use tool_points::ToolPoints;
-pub use unknown::{Role, Unknown};
-pub use values::{Inputs, Points, Values};
 pub use variance::{VarianceComponent, variance_components};

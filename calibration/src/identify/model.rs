@@ -1,4 +1,4 @@
-//! Model of the real machine with unknown errors.
+//! Model of the real machine with unknown errors, and its stations.
 //!
 //! The chain is `B E_0 · A_1 E_1 … A_n E_n · T M E_T`. `B` is the nominal pose of `F_0` in the
 //! frame of the instrument at a station, and `E_0` its unknown error. `E_T` is the unknown error of
@@ -9,10 +9,7 @@
 
 use std::ops::Range;
 
-use super::{
-    Camera, Failure, Fixture, FixtureGeometry, INTRINSICS, KnownDistance, Observable, Role, Station,
-    Uncertainty, Unknown,
-};
+use super::{Camera, Failure, Fixture, FixtureGeometry, INTRINSICS, KnownDistance, Observable, Uncertainty};
 use abbe_analysis::sampling;
 use abbe_core::{Class, Component, Manipulator, Pose};
 
@@ -25,6 +22,61 @@ const STATED_PLACE: f64 = 0.01;
 /// Degrees of freedom of a stated uncertainty: it is trusted to about a factor of 2.
 const STATED: f64 = 2.0;
 
+/// A number to be identified.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unknown {
+    /// An error of `E_0` at a station, in `F_0`: placement of the machine.
+    Base(usize, Component),
+    /// A constant generalized error of a frame, numbered from 0.
+    Error(usize, Component),
+    /// Magnitude of a repeatable source; 1 is its size in the spec.
+    Magnitude(usize),
+    /// Deviation of coordinate 0, 1 or 2 of a target from its nominal position, in the frame of the
+    /// tool. The index is that of [`Model::targets`](super::Model::targets).
+    Target(usize, usize),
+    /// An error of the tool in a placement, where whole poses are measured.
+    Tool(usize, Component),
+    /// Deviation of a fixture from its nominal geometry: coordinate 0, 1 or 2 of a point, tilt 0 or
+    /// 1 of a direction.
+    Fixture(usize, usize),
+    /// Deviation of the zero of an observable from its nominal value.
+    Zero(usize),
+    /// Deviation of an intrinsic parameter of the camera from its nominal value, in the order of
+    /// [`Camera::intrinsics`](super::Camera::intrinsics).
+    Intrinsic(usize),
+}
+
+impl Unknown {
+    /// Returns whether it describes the placement of machine, fixtures or targets, or the
+    /// instrument, instead of an error of the machine.
+    pub fn is_placement(self) -> bool {
+        matches!(self, Self::Base(..) | Self::Fixture(..) | Self::Zero(_) | Self::Intrinsic(_))
+            || self.is_tool()
+    }
+
+    /// Returns whether it is a rotation of the base, of a frame or of the tool.
+    pub fn is_rotation(self) -> bool {
+        matches!(self, Self::Base(_, component) | Self::Error(_, component) | Self::Tool(_, component)
+            if component.is_rotation())
+    }
+
+    /// Returns whether it describes the mounting on the tool.
+    pub fn is_tool(self) -> bool {
+        matches!(self, Self::Target(..) | Self::Tool(..))
+    }
+}
+
+/// Role of a source in a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The source is present as in the spec.
+    Known,
+    /// The magnitude of the source is an unknown.
+    Unknown,
+    /// The source is omitted.
+    Off,
+}
+
 /// Length of the machine that represents its size where readings do not depend on the size.
 ///
 /// The residual `r` of a [blind](Observable::is_blind_to_size) reading shrinks with the machine, so
@@ -36,6 +88,26 @@ pub struct ReferenceLength {
     pub error: Unknown,
     /// Nominal length, signed; the length unit.
     pub length: f64,
+}
+
+/// Pose of `F_0` in the frame of the instrument. It is not an error of the machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Station {
+    /// Name; empty for a single station.
+    pub name: String,
+    /// `B`: transform from `F_0` to the frame of the instrument, before any unknown.
+    pub pose: Pose,
+    /// The pose is exact: it has no unknowns.
+    pub exact: bool,
+    /// Index of the placement on the tool: of its targets and of its mounting.
+    pub placement: usize,
+}
+
+impl Station {
+    /// Creates a nameless station with unknown errors.
+    pub fn at(pose: Pose) -> Self {
+        Self { name: String::new(), pose, exact: false, placement: 0 }
+    }
 }
 
 /// A manipulator with unknown errors, as seen by an instrument.

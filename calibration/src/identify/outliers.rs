@@ -7,9 +7,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::blocks::by_blocks;
 use super::clustered::Known;
 use super::fit::REJECTED;
+use super::linearize::by_blocks;
 use super::robust::robust_scale_after;
 use super::solver::{Residuals, Solver};
 use super::statistics::f_beyond;
@@ -142,11 +142,7 @@ impl Solver<'_> {
 
     /// Returns the rejected rows whose distance is not significant.
     fn could_be_chance(&self, known: &Known) -> Result<Vec<usize>, Failure> {
-        let p = self.x.len();
-        let bread = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
-        let Some(l) = bread.solve_upper_triangular(&DMatrix::identity(bread.nrows(), p)) else {
-            return Ok(Vec::new());
-        };
+        let Some(l) = self.problem.half() else { return Ok(Vec::new()) };
         let left_out: Vec<usize> = (0..self.data.len()).filter(|i| self.weights[*i] == 0.0).collect();
         let block = |_: usize, rows: &[usize]| {
             let mut at = self.at();

@@ -209,7 +209,7 @@ impl Solver<'_> {
             stack.view_mut((0, 0), j.shape()).copy_from(&j);
             stack.view_mut((0, p), (y.len(), 1)).copy_from(&y);
             stack.view_mut((j.nrows(), 0), w.shape()).copy_from(&w);
-            let Problem { a, b } = Problem::from_triangle(&stack, &(0..p).collect::<Vec<_>>());
+            let Problem { a, b } = Problem::from_triangle(stack);
             let logs = |of: &DMatrix<f64>| (0..p).map(|i| of[(i, i)].abs().ln()).sum::<f64>();
             let left = b.rows(p.min(b.len()), b.len().saturating_sub(p)).norm_squared();
             logs(&w) - logs(&a) - 0.5 * (left + (log / SPREAD + SPREAD).powi(2))
@@ -229,7 +229,7 @@ impl Solver<'_> {
 
     /// Returns the largest of these unknowns that is certain, in its prior standard deviations.
     fn largest(&self, basis: &Basis, scaled: &[usize], noise: f64) -> f64 {
-        let Some(half) = self.half() else { return 0.0 };
+        let Some(half) = self.problem.half() else { return 0.0 };
         let size = |i: usize| {
             let x = self.x[i].abs();
             let is_certain = x > CERTAIN * noise * half.row(i).norm();

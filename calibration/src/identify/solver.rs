@@ -1,10 +1,19 @@
 //! Levenberg-Marquardt iterations on a triangular factor instead of the tall Jacobian.
+//!
+//! Steps that did not gain are accelerated along geodesics. Weakly determined unknowns make a long,
+//! curved valley of the cost, in which a step along the tangent climbs the side, so that damping
+//! shortens the steps. Transtrum and Sethna, *Improvements to the Levenberg-Marquardt algorithm for
+//! nonlinear least-squares minimization*, 2012, add the second derivative of the residuals along
+//! the step δ:
+//!
+//! ```text
+//! r″ = 2 ((r(x + hδ) − r(x))/h − J δ)/h,      (JᵀJ + λ D²) a = −Jᵀ r″,      x + δ + ½ a
+//! ```
 
 use nalgebra::{DMatrix, DVector};
 
-use super::blocks::by_blocks;
 use super::evaluated_model::EvaluatedModel;
-use super::linearize::{linearize, with_priors};
+use super::linearize::{by_blocks, linearize, with_priors};
 use super::triangle::Problem;
 use super::{Failure, Loss, Model, Observation};
 
@@ -73,6 +82,11 @@ impl<'a> Solver<'a> {
         (&self.prior * x).norm_squared()
     }
 
+    /// Replaces the rows of the prior.
+    pub(super) fn set_prior(&mut self, prior: DMatrix<f64>) {
+        (self.prior, self.linearized) = (prior, false);
+    }
+
     /// Estimates the standard deviation of a number, in units of its uncertainty, which is prior
     /// information.
     pub(super) fn noise(&self) -> f64 {
@@ -101,9 +115,7 @@ impl<'a> Solver<'a> {
         for _ in 0..most {
             // A millionth of the expected contribution of a single number to the cost.
             let nothing = 1e-6 * self.cost / self.data.len().max(1) as f64;
-            if self.problem.b.rows(0, self.problem.a.ncols().min(self.problem.b.len())).norm_squared()
-                <= nothing
-            {
+            if self.problem.promise() <= nothing {
                 return Ok(true);
             }
             let Some(step) = self.problem.solve(damping) else {
@@ -181,6 +193,33 @@ impl<'a> Solver<'a> {
         }
         self.linearized = false;
     }
+
+    /// Returns `δ + ½ a`, or δ if `a` is too long.
+    fn accelerated(&self, step: &DVector<f64>, damping: f64) -> Result<DVector<f64>, Failure> {
+        let there = &self.x + step * AHEAD;
+        let block = |first: usize, rows: &[Observation]| {
+            let (mut here, mut there) = (self.at(), self.model.at(there.as_slice()));
+            let (mut sum, mut ahead) = (DVector::zeros(step.len()), Vec::new());
+            for i in (first..first + rows.len()).filter(|i| self.weights[*i] > 0.0) {
+                ahead.clear();
+                there.residuals(&self.data[i], |r| ahead.push(r))?;
+                let mut ahead = ahead.iter();
+                here.linear(&self.data[i], |residual, row| {
+                    let along: f64 = row.iter().zip(step.iter()).map(|(a, b)| a * b).sum();
+                    let moved = ahead.next().map_or(along, |ahead| (ahead - residual) / AHEAD);
+                    let bend = self.weights[i] * 2.0 * (moved - along) / AHEAD;
+                    sum.iter_mut().zip(row).for_each(|(sum, value)| *sum += bend * value);
+                })?;
+            }
+            Ok(sum)
+        };
+        let mut bend = DVector::zeros(step.len());
+        by_blocks(self.data, block, |part| bend += part)?;
+        let Some(half) = self.problem.solve_normal(&(bend * -0.5), damping) else { return Ok(step.clone()) };
+        let scale = self.scale();
+        let length = |step: &DVector<f64>| step.component_mul(&scale).norm();
+        Ok(if 2.0 * length(&half) <= BEND * length(step) { step + half } else { step.clone() })
+    }
 }
 
 /// Residuals of the data.
@@ -191,3 +230,9 @@ pub(super) struct Residuals {
     /// Norm of the residuals of each observation.
     pub(super) norms: Vec<f64>,
 }
+
+/// Relative length `h` of the difference step.
+const AHEAD: f64 = 0.1;
+
+/// Largest length of `a` relative to the step.
+const BEND: f64 = 0.75;

@@ -66,14 +66,23 @@ pub(super) struct Problem {
 }
 
 impl Problem {
-    /// Selects columns of a finished triangle; a column may occur repeatedly.
-    pub(super) fn from_triangle(triangle: &DMatrix<f64>, columns: &[usize]) -> Self {
-        let last = triangle.ncols() - 1;
-        let columns_and_right: Vec<usize> = columns.iter().copied().chain([last]).collect();
-        let full = triangle.select_columns(&columns_and_right);
-        let r = full.qr().unpack_r();
-        let p = columns.len();
+    /// Returns the problem of a finished triangle, whose last column is the right side.
+    pub(super) fn from_triangle(triangle: DMatrix<f64>) -> Self {
+        let p = triangle.ncols() - 1;
+        let r = triangle.qr().unpack_r();
         Self { a: r.columns(0, p).into_owned(), b: r.column(p).into_owned() }
+    }
+
+    /// Returns L with `(AᵀA)⁻¹ = L Lᵀ`; none if that is singular.
+    pub(super) fn half(&self) -> Option<DMatrix<f64>> {
+        let p = self.a.ncols();
+        let root = self.a.rows(0, p.min(self.a.nrows()));
+        root.solve_upper_triangular(&DMatrix::identity(root.nrows(), p))
+    }
+
+    /// Returns the decrease of `‖b‖²` at the minimum: `‖Qᵀb‖²`, with `A` its own `R`.
+    pub(super) fn promise(&self) -> f64 {
+        self.b.rows(0, self.a.ncols().min(self.b.len())).norm_squared()
     }
 
     /// Solves `min ‖A x − b‖² + λ ‖D x‖²`, with `D` the lengths of the columns; none if singular.

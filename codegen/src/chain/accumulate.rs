@@ -1,8 +1,9 @@
 //! Accumulates the effects of all frames' errors on the tool point from the tip to the base,
-//! without the poses of the frames in `F_0`.
+//! without the poses of the frames in `F_0`: `ΔX = J_e ε` without `J_e`.
 
-use abbe_core::Orientation;
+use abbe_core::{Component, Orientation};
 use abbe_spec::Spec;
+use abbe_spec::expr::{Motion, motion};
 
 use super::local::Local;
 use super::rows::Rows;
@@ -142,4 +143,79 @@ impl Links {
 fn go_before<A: Accumulated>(graph: &mut Graph, motion: &Local, sum: &mut A, lever: &mut Vector) {
     sum.turn(graph, motion);
     *lever = motion.point(graph, *lever);
+}
+
+/// Splits six values in the order of ε into translation and rotation, each x y z.
+pub(super) fn vectors(six: [Node; 6]) -> (Vector, Vector) {
+    let (mut shift, mut turn) = ([six[0]; 3], [six[0]; 3]);
+    for (component, node) in Component::ALL.into_iter().zip(six) {
+        match motion(component) {
+            (Motion::Translation, axis) => shift[axis] = node,
+            (Motion::Rotation, axis) => turn[axis] = node,
+        }
+    }
+    (shift, turn)
+}
+
+/// Combines translation and rotation to six values in the order of ε.
+pub(super) fn six(shift: Vector, turn: Vector) -> [Node; 6] {
+    Component::ALL.map(|component| match motion(component) {
+        (Motion::Translation, axis) => shift[axis],
+        (Motion::Rotation, axis) => turn[axis],
+    })
+}
+
+/// Displacement of the tool point caused by the frames from the tip to the current one:
+///
+/// ```text
+/// δ ← R_i (δ + d_i + θ_i × ρ)        θ ← R_i (θ + θ_i)
+/// ```
+pub(crate) struct Displacement {
+    /// Translation δ.
+    pub(super) shift: Vector,
+    /// Rotation θ.
+    pub(super) turn: Vector,
+}
+
+impl Displacement {
+    pub(super) fn none(graph: &mut Graph) -> Self {
+        let zero = [graph.zero(); 3];
+        Self { shift: zero, turn: zero }
+    }
+
+    /// Returns the six rows of ΔX.
+    pub(super) fn column(&self, graph: &mut Graph, rows: &Rows) -> [Node; 6] {
+        rows.column(graph, self.shift, self.turn)
+    }
+}
+
+impl Accumulated for Displacement {
+    const NUMBERS: usize = 6;
+
+    fn from_numbers(numbers: &[Node]) -> Self {
+        let vector = |first: usize| [0, 1, 2].map(|i| numbers[first + i]);
+        Self { shift: vector(0), turn: vector(3) }
+    }
+
+    fn numbers(&self) -> Vec<Node> {
+        [self.shift, self.turn].concat()
+    }
+
+    /// Returns ΔX as the only column.
+    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
+        vec![self.column(graph, rows)]
+    }
+
+    fn add(&mut self, graph: &mut Graph, errors: [Node; 6], lever: Vector) {
+        let (shift, turn) = vectors(errors);
+        let swing = graph.cross(turn, lever);
+        self.shift = graph.add_vectors(self.shift, shift);
+        self.shift = graph.add_vectors(self.shift, swing);
+        self.turn = graph.add_vectors(self.turn, turn);
+    }
+
+    fn turn(&mut self, graph: &mut Graph, motion: &Local) {
+        self.shift = motion.direction(graph, self.shift);
+        self.turn = motion.direction(graph, self.turn);
+    }
 }

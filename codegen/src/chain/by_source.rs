@@ -3,8 +3,7 @@
 use abbe_spec::Spec;
 
 use super::EffectNode;
-use super::accumulate::Links;
-use super::displacement::Displacement;
+use super::accumulate::{Displacement, Links};
 use super::rows::Rows;
 use crate::graph::{Graph, Node};
 

@@ -4,8 +4,7 @@ use abbe_spec::expr::{Elementary, Symbol};
 use abbe_spec::{ChainNumber, Factor, Spec};
 
 use super::accumulate::Links;
-use super::joint_columns::JOINTS_OF_A_POSE;
-use super::joint_step::joint_step;
+use super::joint_columns::{JOINTS_OF_A_POSE, joint_step};
 use super::kinematics::of_repeatable;
 use super::magnitudes::Magnitude;
 use super::real::RealChain;

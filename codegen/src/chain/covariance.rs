@@ -1,10 +1,9 @@
 //! Computes `J_e diag(σ²) J_eᵀ` without `J_e`.
 
-use super::accumulate::Accumulated;
+use super::accumulate::{Accumulated, vectors};
 use super::local::Local;
 use super::rows::Rows;
-use super::six::vectors;
-use crate::graph::{Graph, Node, Vector};
+use crate::graph::{Graph, Node, Vector, transposed};
 
 type Matrix = [Vector; 3];
 
@@ -61,10 +60,10 @@ impl Accumulated for Covariance {
     /// rotation to rows 4–6.
     fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
         let pr = self.pr.map(|row| rows.orientation_rows(graph, row));
-        let half = transposed(self.rr.map(|row| rows.orientation_rows(graph, row)));
+        let half = transposed(&self.rr.map(|row| rows.orientation_rows(graph, row)));
         let rr = symmetric(half.map(|row| rows.orientation_rows(graph, row)));
         let upper = (0..3).map(|i| joined(self.pp[i], pr[i]));
-        let lower = (0..3).map(|i| joined(transposed(pr)[i], rr[i]));
+        let lower = (0..3).map(|i| joined(transposed(&pr)[i], rr[i]));
         upper.chain(lower).collect()
     }
 
@@ -157,7 +156,7 @@ fn turned(graph: &mut Graph, motion: &Local, axis: usize, double: Double, m: &Ma
     let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut turned = *m;
     turned[axis] = motion.direction(graph, m[axis]);
-    let column = motion.direction(graph, transposed(*m)[axis]);
+    let column = motion.direction(graph, transposed(m)[axis]);
     let (difference, sum) = (graph.sub(m[j][j], m[k][k]), graph.add(m[j][k], m[k][j]));
     let (first, second) = (graph.mul(double.square, difference), graph.mul(double.product, sum));
     let x = graph.sub(first, second);
@@ -175,12 +174,8 @@ fn turned(graph: &mut Graph, motion: &Local, axis: usize, double: Double, m: &Ma
 
 /// Returns `R M Rᵀ`: transforms the columns, then the rows.
 fn congruent(graph: &mut Graph, motion: &Local, m: &Matrix) -> Matrix {
-    let columns = transposed(*m).map(|column| motion.direction(graph, column));
-    transposed(columns).map(|row| motion.direction(graph, row))
-}
-
-fn transposed(m: Matrix) -> Matrix {
-    std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
+    let columns = transposed(m).map(|column| motion.direction(graph, column));
+    transposed(&columns).map(|row| motion.direction(graph, row))
 }
 
 /// Copies the upper triangle to the lower one.

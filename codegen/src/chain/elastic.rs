@@ -9,8 +9,8 @@ use abbe_core::Component;
 use abbe_spec::expr::{Function, Motion, Symbol, motion};
 use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
 
+use super::accumulate::{six, vectors};
 use super::deviation::transform_twists;
-use super::six::{six, vectors};
 use super::tree::{Parts, Reaction, length_slopes};
 use super::walk::transform;
 use crate::graph::{Frame, Graph, Node, Vector};
@@ -361,13 +361,11 @@ fn beam_compliance(graph: &mut Graph, beam: &Beam, length: Node) -> Compliance {
     let turn = |axis: usize| index(Motion::Rotation, axis);
     let (a, b, c) = (beam.axis, beam.axis + 1, beam.axis + 2);
     let mut compliance = [[graph.zero(); 6]; 6];
-    if let Some(extension) = &beam.extension {
-        let stiffness = graph.lower(extension);
-        compliance[shift(a)][shift(a)] = graph.div(length, stiffness);
-    }
-    if let Some(torsion) = &beam.torsion {
-        let stiffness = graph.lower(torsion);
-        compliance[turn(a)][turn(a)] = graph.div(length, stiffness);
+    for (stiffness, along) in [(&beam.extension, shift(a)), (&beam.torsion, turn(a))] {
+        if let Some(stiffness) = stiffness {
+            let stiffness = graph.lower(stiffness);
+            compliance[along][along] = graph.div(length, stiffness);
+        }
     }
     // Bending about c displaces along b; bending about b along −c.
     for (along, about, stiffness, sign) in [(b, c, &beam.bending[1], 1.0), (c, b, &beam.bending[0], -1.0)] {

@@ -14,17 +14,29 @@
 //! angles), origins are read off columns, and quantities that are simple in the axes of a frame are
 //! computed there. Three base frames and the last five frames before the one in question suffice,
 //! so the work is linear in the length of the chain.
+//!
+//! For `ΔX = J_e ε`, the displacement of the current origin is accumulated instead of the tool
+//! point's. Let w be the displacement of the point at the frame's origin, considered as fixed to
+//! the tool, θ the rotation of `Displacement`, and ρ the tool point relative to the frame:
+//!
+//! ```text
+//! δ = w + θ × ρ        take in ε_i: w ← w + d_i        through a shift by t: w ← w − θ × t
+//! ```
+//!
+//! A translation along an axis takes two products, where an error at a lever ρ takes six. Between
+//! frames with a common origin there is nothing to compute.
 
 use abbe_core::Component;
 use abbe_spec::Spec;
 use abbe_spec::expr::{Symbol, motion};
 use indexmap::IndexMap;
 
-use super::accumulate::Links;
+use super::accumulate::{Accumulated, Displacement, Links, vectors};
 use super::deviation::local_twist;
 use super::error_jacobian::Columns;
+use super::local::Local;
 use super::symbol_jacobian::{Steps, twist};
-use crate::graph::{Frame, Graph, Vector};
+use crate::graph::{Frame, Graph, Node, Vector};
 
 /// Number of frames, counted from `F_0`, whose axes are considered for all other frames.
 const FIRST: usize = 3;
@@ -246,4 +258,41 @@ fn equate_frames(graph: &mut Graph, a: Frame, b: Frame) {
         graph.equate_vectors(a, b);
     }
     graph.equate_vectors(a.position, b.position);
+}
+
+/// States at every frame that both forms are equal, and proposes to switch from one to the other
+/// there.
+pub(super) fn equate_at_origin(graph: &mut Graph, links: &Links, errors: &[[Node; 6]]) {
+    let zero = [graph.zero(); 3];
+    let mut at_tool = Displacement::none(graph);
+    let mut at_origin = zero;
+    let mut lever = links.point(graph, errors.len(), zero);
+    let mut origins = Vec::new();
+    for (link, errors) in errors.iter().enumerate().rev() {
+        at_tool.add(graph, *errors, lever);
+        at_origin = graph.add_vectors(at_origin, vectors(*errors).0);
+        let swing = graph.cross(at_tool.turn, lever);
+        let there = graph.add_vectors(at_origin, swing);
+        let back = graph.sub_vectors(at_tool.shift, swing);
+        graph.equate_vectors(at_tool.shift, there);
+        graph.equate_vectors(at_origin, back);
+        // Path from the tip to this frame by origins, from here on by the tool point.
+        origins.extend(at_origin);
+        graph.propose_together([&origins[..], &there].concat());
+        for motion in links.motions(link).iter().rev() {
+            at_origin = match motion {
+                Local::Shift(shift) => {
+                    let swing = graph.cross(at_tool.turn, *shift);
+                    graph.sub_vectors(at_origin, swing)
+                }
+                _ => motion.direction(graph, at_origin),
+            };
+            at_tool.turn(graph, motion);
+            lever = motion.point(graph, lever);
+        }
+    }
+    let swing = graph.cross(at_tool.turn, lever);
+    let there = graph.add_vectors(at_origin, swing);
+    graph.equate_vectors(at_tool.shift, there);
+    graph.propose_together([&origins[..], &there].concat());
 }

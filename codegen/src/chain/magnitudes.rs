@@ -9,12 +9,10 @@ use abbe_core::Orientation;
 use abbe_spec::Spec;
 use abbe_spec::expr::{Function, Symbol};
 
-use super::accumulate::Links;
+use super::accumulate::{Displacement, Links, vectors};
 use super::by_source::errors_by_source;
-use super::displacement::Displacement;
-use super::implicit::Implicit;
+use super::remainder::Implicit;
 use super::rows::Rows;
-use super::six::vectors;
 use super::sources;
 use super::tree::Parts;
 use crate::graph::{Graph, Node, Vector};

@@ -8,7 +8,6 @@ mod arena;
 mod arithmetic;
 mod diff;
 mod equal;
-mod evaluate;
 mod functions;
 mod lower;
 mod substitute;

@@ -1,10 +1,9 @@
 //! The nodes of a model that each function returns. No other file states this.
 
 use abbe_core::Function;
-use abbe_spec::expr::Symbol;
 
+use super::Program;
 use super::select::Selections;
-use super::{Program, Rounded, tree};
 use crate::chain::{Jacobian, Model};
 use crate::graph::{Frame, Node};
 
@@ -20,12 +19,6 @@ pub(super) struct Outputs {
 /// Returns the straight-line program of a function: its results in order, the margin last.
 pub fn straight_line(function: Function, model: &Model) -> Program {
     fewest(alternatives(function, model), model, &mut Selections::default()).1
-}
-
-/// Returns the local symbols that these nodes of a function read, with bounds of their rounding
-/// errors: passive variables and, for poses with errors, the errors. Empty for a chain of frames.
-pub fn locals(function: Function, model: &Model, symbol: impl Fn(Symbol) -> f64, unit: f64) -> Vec<Rounded> {
-    tree::locals(model, function, symbol, unit)
 }
 
 /// Returns the nodes of each result of a function and of its margin, in the first of its

@@ -79,7 +79,7 @@ pub struct Step {
 }
 
 /// A straight-line program.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
     /// Steps, each after its operands; none is unused.
     pub steps: Vec<Step>,
@@ -102,11 +102,7 @@ impl Program {
 
     pub(super) fn count_uses(&mut self) {
         let mut uses = vec![0; self.registers];
-        for operand in self.operands() {
-            if let Operand::Register(register) = operand {
-                uses[register] += 1;
-            }
-        }
+        self.operands().filter_map(Operand::register).for_each(|register| uses[register] += 1);
         self.uses = uses;
     }
 }

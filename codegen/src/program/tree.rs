@@ -125,12 +125,7 @@ impl<'d> LoopRoutineBuilder<'d> {
 
 /// Returns the local symbols that the outputs of a function read, with bounds of their rounding
 /// errors: the passive variables, nominal or with errors, and the errors. Empty for a chain.
-pub(super) fn locals(
-    model: &Model,
-    function: Function,
-    symbol: impl Fn(Symbol) -> f64,
-    unit: f64,
-) -> Vec<Rounded> {
+pub fn locals(function: Function, model: &Model, symbol: impl Fn(Symbol) -> f64, unit: f64) -> Vec<Rounded> {
     let Some(tree) = model.loops.as_ref().filter(|tree| !tree.passive_home.is_empty()) else {
         return Vec::new();
     };

@@ -128,15 +128,11 @@ impl<'w> Writer<'w> {
             Op::Neg(a) => return self.value(a).times(true),
             Op::Add(a, b) => sum(self.value(a), self.value(b), &mut negative),
             Op::Sub(a, b) => sum(self.value(a), self.value(b).times(true), &mut negative),
-            Op::Mul(a, b) => {
+            Op::Mul(a, b) | Op::Div(a, b) => {
                 let (a, b) = (self.value(a), self.value(b));
                 negative = a.negative != b.negative;
-                Action::Mul(a.operand, b.operand)
-            }
-            Op::Div(a, b) => {
-                let (a, b) = (self.value(a), self.value(b));
-                negative = a.negative != b.negative;
-                Action::Div(a.operand, b.operand)
+                let action = if matches!(op, Op::Mul(..)) { Action::Mul } else { Action::Div };
+                action(a.operand, b.operand)
             }
             Op::Pow(a, b) => Action::Pow(self.whole(a), self.whole(b)),
             Op::Atan2(a, b) => Action::Atan2(self.whole(a), self.whole(b)),

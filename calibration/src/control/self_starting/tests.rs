@@ -3,7 +3,7 @@
 use rand::RngExt;
 use rand_distr::StandardNormal;
 
-use super::SelfStarting;
+use super::{SelfStarting, normal_quantile};
 use abbe_analysis::sampling::stream;
 
 /// Scores have mean 0, variance 1, no autocorrelation and normal tails, for any mean and scale
@@ -40,4 +40,11 @@ fn the_sign_is_that_of_the_difference() {
     }
     let mut other = chart;
     assert!(other.next(1.5) > 1.0 && chart.next(0.5) < -1.0);
+}
+
+#[test]
+fn quantiles_are_those_of_the_tables() {
+    for (p, x) in [(0.5, 0.0), (0.975, 1.959_963_985), (1e-6, -4.753_424_309), (0.999, 3.090_232_306)] {
+        assert!((normal_quantile(p) - x).abs() < 1e-8, "{p}: {}", normal_quantile(p));
+    }
 }

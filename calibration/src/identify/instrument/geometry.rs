@@ -30,10 +30,21 @@ impl Geometry<'_> {
         self.tool_in_f0.apply(self.targets[target])
     }
 
+    /// Returns the position of a target in the frame of the instrument.
+    pub(super) fn target_seen(&self, target: usize) -> [f64; 3] {
+        self.tool.apply(self.targets[target])
+    }
+
     /// Returns the position of a target in `F_0` in the previous row, or its present one if there
     /// is none.
     pub(super) fn previous_target(&self, target: usize) -> [f64; 3] {
         self.previous.map_or_else(|| self.target(target), |(tool, targets)| tool.apply(targets[target]))
+    }
+
+    /// Returns the pose of the tool in `F_0` in the previous row, or its present one if there is
+    /// none.
+    pub(super) fn previous_tool(&self) -> Pose {
+        self.previous.map_or(self.tool_in_f0, |(tool, _)| tool)
     }
 
     /// Returns the point or the unit direction of a fixture; zero if there is none.

@@ -20,7 +20,7 @@ pub(super) static POINT: InstrumentKind = InstrumentKind {
 pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluation {
     let k = observable.axis;
     Evaluation {
-        value: geometry.tool.apply(geometry.targets[observable.targets[0]])[k],
+        value: geometry.target_seen(observable.targets[0])[k],
         along: core::array::from_fn(|i| geometry.base.0[i][k]),
         ..Evaluation::ZERO
     }

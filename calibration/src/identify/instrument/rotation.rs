@@ -24,8 +24,7 @@ pub(super) static ROTATION: InstrumentKind = InstrumentKind {
 /// A further rotation `dω` about `r / θ` adds to θ; about axes perpendicular to it, it changes the
 /// direction of `r` alone.
 fn evaluate(_: &Observable, geometry: &Geometry) -> Evaluation {
-    let mut turn =
-        geometry.tool_in_f0.then(&geometry.previous.map_or(geometry.tool_in_f0, |(tool, _)| tool).inverse());
+    let mut turn = geometry.tool_in_f0.then(&geometry.previous_tool().inverse());
     turn.0[3] = [0.0; 3];
     let r = rotation_vector(&turn);
     Evaluation { value: dot(r, r).sqrt(), along: unit(r), ..Evaluation::ZERO }

@@ -16,12 +16,12 @@ fn it_keeps_what_least_squares_need() {
     }
     triangle.merge(half);
     let r = triangle.finish();
-    let x = Problem::from_triangle(&r, &[0, 1, 2, 3, 4]).solve(0.0).unwrap();
+    let x = Problem::from_triangle(r.clone()).solve(0.0).unwrap();
     let a = DMatrix::from_fn(m, p, value);
     let b = DVector::from_fn(m, |i, _| value(i, p));
     let expected = (a.transpose() * &a).cholesky().unwrap().solve(&(a.transpose() * &b));
     assert!((&x - expected).norm() < 1e-12);
-    let problem = Problem::from_triangle(&r, &[0, 1, 2, 3, 4]);
+    let problem = Problem::from_triangle(r);
     // The damped normal equations have the same solution.
     let g = problem.a.tr_mul(&problem.b);
     assert!((problem.solve_normal(&g, 0.1).unwrap() - problem.solve(0.1).unwrap()).norm() < 1e-12);

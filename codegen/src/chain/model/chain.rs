@@ -8,17 +8,14 @@ use super::machine::Machine;
 use crate::chain::accumulate::{Accumulated, Links};
 use crate::chain::by_source;
 use crate::chain::covariance::Covariance;
-use crate::chain::equivalent_forms::EquivalentForms;
-use crate::chain::error_jacobian::{self, Columns};
+use crate::chain::equivalent_forms::{EquivalentForms, equate_at_origin};
+use crate::chain::error_jacobian::{self, Columns, Moments};
 use crate::chain::inverse::Inverse;
 use crate::chain::kinematics::{Kinematics, magnitudes, symbols};
-use crate::chain::local_twist::local_twists;
-use crate::chain::moments::Moments;
-use crate::chain::origin_form;
 use crate::chain::real::RealChain;
 use crate::chain::rows::Rows;
 use crate::chain::sources::Causes;
-use crate::chain::symbol_jacobian::{Steps, twist};
+use crate::chain::symbol_jacobian::{Steps, local_twists, twist};
 use crate::chain::walk::{Step, walk};
 use crate::graph::{Frame, Graph, Node, Vector};
 
@@ -73,7 +70,7 @@ impl Chain {
         });
         if let Some((links, _)) = self.along.as_ref().filter(|_| !is_long) {
             for errors in errors {
-                origin_form::equate(graph, links, errors);
+                equate_at_origin(graph, links, errors);
             }
             let poses: Vec<Frame> = self.frames.iter().copied().chain([self.tool]).collect();
             for (chain, real) in [(&real, &real_poses), (&drawn, &drawn_poses)] {

@@ -1,7 +1,7 @@
 //! The machine with its errors, as nodes of chains or trees of frames.
 
 use crate::chain::inverse::Inverse;
-use crate::chain::local_twist::LocalTwist;
+use crate::chain::symbol_jacobian::LocalTwist;
 use crate::chain::tree::ClosedLoops;
 use crate::graph::{Frame, Node};
 

@@ -10,8 +10,8 @@ mod names;
 use abbe_spec::Spec;
 
 use super::inverse::Inverse;
-use super::local_twist::LocalTwist;
 use super::sources::EffectNode;
+use super::symbol_jacobian::LocalTwist;
 use super::tree::ClosedLoops;
 use crate::graph::{Frame, Graph, Node};
 

@@ -15,25 +15,18 @@
 //! forces that close the loops of a loaded machine, and `curve` the tool point while errors grow.
 
 mod closure;
-mod curve;
-mod equations;
 mod factored;
-mod lengths;
 mod loops;
-mod model;
 mod parts;
 mod path;
-mod reactions;
 mod system;
-mod triangular;
 mod units;
 mod view;
 
-pub(super) use curve::curvature;
-pub use equations::LoopEquations;
-pub(super) use lengths::{add_lengths, length_slopes};
+pub(super) use closure::{add_lengths, length_slopes};
+pub(super) use loops::curvature;
 pub(crate) use loops::{ClosedLoops, RealNodes};
 pub(super) use parts::Parts;
-pub(crate) use parts::passive_by_symbol;
+pub(crate) use parts::{Reaction, passive_by_symbol};
 pub(crate) use path::{Path, STEPS};
-pub(crate) use reactions::Reaction;
+pub use system::LoopEquations;

@@ -1,15 +1,31 @@
 //! The parts of a tree of frames: what moves its tool and its loops.
+//!
+//! Forces close the loops of a loaded machine, which rests where its energy `V = ½ Σ ε_iᵀ C_i⁻¹ ε_i
+//! − W(q, p, ε)` is smallest under `φ(q, p, ε) = 0`; W is the work of the loads. With multipliers λ
+//! of φ, to first order,
+//!
+//! ```text
+//! by p:      W_p + φ_pᵀ λ = 0              λ = −φ_p⁻ᵀ W_p
+//! by ε_i:    C_i⁻¹ ε_i = w_i               w_i = W_ε + φ_εᵀ λ
+//! by l:      −k δl = λ                     for a leg, whose φ = |d| − l
+//! ```
+//!
+//! Hence w_i is `(J_ε − J_p φ_p⁻¹ φ_ε)ᵀ F` for a load F and J at its point: passive joints carry
+//! nothing along their motions. `φ_εᵀ λ` is the wrench of forces on the frames of the loops: λ u
+//! and −λ u on the ends of a leg, along its direction u. A leg that is pressed has a positive λ.
 
 use abbe_core::Component;
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Closure, Factor, Spec};
 
-use super::closure::{self, Ends};
+use super::closure::{self, Ends, Wrenches, wrenches};
 use super::factored::Factored;
 use super::units::{Units, passive_at_home};
 use super::view::{Motion, View};
-use crate::chain::implicit::Implicit;
-use crate::graph::{Graph, Node, Vector};
+use crate::chain::kinematics::Kinematics;
+use crate::chain::remainder::Implicit;
+use crate::chain::rows::Rows;
+use crate::graph::{Frame, Graph, Node, Vector};
 
 /// The frames of a tree, its loops, and what eliminates the passive variables.
 pub(crate) struct Parts<'s> {
@@ -113,11 +129,6 @@ impl<'s> Parts<'s> {
         self.whole.pose(Some(self.whole.tool())).axes[axis]
     }
 
-    /// Iterates over the loops: their frames and conditions.
-    pub(super) fn closures(&self) -> impl Iterator<Item = (Ends, &'s Closure)> {
-        self.loops.iter().map(|part| (part.ends, part.closure))
-    }
-
     /// Returns numbers that are positive unless a rotation closes upside down.
     pub(super) fn upright(&self, graph: &mut Graph) -> Vec<Node> {
         let upright = |Part { ends, closure, view, .. }: &Part<'_>| {
@@ -211,6 +222,20 @@ impl<'s> Parts<'s> {
         let rates = self.rates(graph, |graph, view| view.by_errors(graph, &errors));
         self.closed(graph, twist, &rates)
     }
+
+    /// Returns the forces of each loop, given the force or moment of the loads on each passive
+    /// variable.
+    pub(crate) fn reactions(&self, graph: &mut Graph, loads: &[Node]) -> Vec<Reaction> {
+        let opposite: Vec<Node> = loads.iter().map(|load| graph.neg(*load)).collect();
+        let mut rest = self.factored.solve_row(graph, &opposite);
+        let reaction = |Part { ends, closure, .. }: &Part<'_>| {
+            let forces: Vec<Node> = rest.drain(..closure.equations()).collect();
+            let pose = |frame| *self.whole.pose(frame);
+            let wrenches = wrenches(graph, *ends, closure, &forces, pose);
+            Reaction { forces, wrenches }
+        };
+        self.loops.iter().map(reaction).collect()
+    }
 }
 
 /// Returns the rates of the passive variables of a spec per unit of a symbol; none without loops.
@@ -263,3 +288,63 @@ fn moves_alone(spec: &Spec, frame: usize) -> bool {
 
 /// Freedoms of a body in space.
 const FREEDOMS: usize = 6;
+
+/// Forces of a loop, in the axes of `F_0`.
+pub(crate) struct Reaction {
+    /// λ, one per equation.
+    pub(crate) forces: Vec<Node>,
+    /// Forces and moments on its frames.
+    pub(crate) wrenches: Wrenches,
+}
+
+impl Kinematics for Parts<'_> {
+    fn poses(&self) -> (&[Frame], Frame) {
+        let whole = &self.whole;
+        (whole.frames(), *whole.pose(Some(whole.tool())))
+    }
+
+    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<[Node; 6]>, Vec<Vec<Node>>) {
+        let mut columns = Vec::new();
+        for frame in 0..self.whole.frames().len() {
+            for component in Component::ALL {
+                let [velocity, rotation] = self.by_error(graph, frame, component);
+                columns.push(rows.column(graph, velocity, rotation));
+            }
+        }
+        let distinct = columns.chunks_exact(6).map(<[_]>::concat).collect();
+        (columns, distinct)
+    }
+
+    fn twists(&self, graph: &mut Graph, symbols: &[Symbol]) -> Vec<[Vector; 2]> {
+        symbols.iter().map(|symbol| self.by_symbol(graph, *symbol)).collect()
+    }
+
+    fn prepare_sums(&mut self, _: &mut Graph, _: &Spec) -> Option<Option<Node>> {
+        None
+    }
+
+    fn displacement(&self, graph: &mut Graph, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
+        let [velocity, rotation] = self.by_errors(graph, errors);
+        rows.column(graph, velocity, rotation)
+    }
+
+    fn covariance(
+        &self,
+        graph: &mut Graph,
+        columns: &[[Node; 6]],
+        variances: &[[Node; 6]],
+    ) -> Vec<[Node; 6]> {
+        let mut sums = vec![[graph.zero(); 6]; 6];
+        for (column, variance) in columns.iter().zip(variances.as_flattened()) {
+            let weighted = column.map(|entry| graph.mul(*variance, entry));
+            for i in 0..6 {
+                for j in i..6 {
+                    let part = graph.mul(weighted[i], column[j]);
+                    sums[i][j] = graph.add(sums[i][j], part);
+                    sums[j][i] = sums[i][j];
+                }
+            }
+        }
+        sums
+    }
+}

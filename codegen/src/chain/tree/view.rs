@@ -111,7 +111,7 @@ impl<'s> View<'s> {
         let mut motions = Vec::new();
         for (frame, errors) in errors.iter().enumerate() {
             if *errors != none && self.is_below(frame) {
-                let (shift, turn) = crate::chain::six::vectors(*errors);
+                let (shift, turn) = crate::chain::accumulate::vectors(*errors);
                 let axes = &self.poses[frame].axes;
                 let (velocity, rotation) = (graph.turn(axes, shift), graph.turn(axes, turn));
                 motions.push(Motion { frame, velocity, rotation });

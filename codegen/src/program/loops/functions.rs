@@ -3,8 +3,7 @@
 use abbe_core::Orientation;
 use abbe_core::function::Count;
 
-use super::body::Body;
-use super::routine_builder::{POSE, RoutineBuilder, RowsArray};
+use super::routine_builder::{Body, POSE, RoutineBuilder, RowsArray};
 use super::sums::Twists;
 use crate::chain::{Accumulated, Columns, Local, swing};
 use crate::graph::Node;
@@ -19,7 +18,7 @@ impl RoutineBuilder<'_, '_> {
         self.copy(frames, Row::Last, pose);
         let last = self.last_axis();
         let rows = self.rows(|body| body.frame(pose, Row::All).axes[last]);
-        let mut body = Body::new();
+        let mut body = Body::default();
         let (at, tool) = (body.frame(frames, Row::NEXT), body.frame(pose, Row::All));
         let rows = rows.read(&mut body);
         let g = &mut body.graph;
@@ -86,7 +85,7 @@ impl RoutineBuilder<'_, '_> {
         let entries = self.zeros("twists", &[Count::Exactly(twists.count), Count::Exactly(6)]);
         self.stages.push(Stage::Sums { sums: twists.sums, terms, entries });
         let listed = |column| Row::Listed { table: twists.table, column };
-        let mut body = Body::new();
+        let mut body = Body::default();
         let (before, tool) = (body.frame(frames, listed(0)), body.frame(frames, Row::Last));
         let [velocity, turn] = body.twist(entries, Row::EACH);
         let sum = body.six(columns, listed(1));
@@ -109,7 +108,7 @@ impl RoutineBuilder<'_, '_> {
         let lever = self.zeros("lever", &[Count::Exactly(3)]);
         let axis = euler.then(|| self.zeros("direction", &[Count::Exactly(3)]));
         let state = self.zeros("sum", &[Count::Exactly(A::NUMBERS)]);
-        let mut body = Body::new();
+        let mut body = Body::default();
         let tool = body.frame(links, Row::Last);
         body.write(lever, Row::All, &tool.position);
         if let Some(axis) = axis {
@@ -117,7 +116,7 @@ impl RoutineBuilder<'_, '_> {
         }
         self.once(body);
 
-        let mut body = Body::new();
+        let mut body = Body::default();
         let link = body.frame(links, Row::NEXT);
         let errors = body.six(self.array(errors), Row::EACH);
         let numbers = body.read(state, Row::All, A::NUMBERS);
@@ -140,7 +139,7 @@ impl RoutineBuilder<'_, '_> {
 
         let euler = |axis| self.rows(|body| body.vector(axis, Row::All));
         let rows = axis.map_or(RowsArray::ROTATION_VECTOR, euler);
-        let mut body = Body::new();
+        let mut body = Body::default();
         let numbers = body.read(state, Row::All, A::NUMBERS);
         let rows = rows.read(&mut body);
         let nodes = A::from_numbers(&numbers).rows(&mut body.graph, &rows);
@@ -171,7 +170,7 @@ impl RoutineBuilder<'_, '_> {
         self.stages.push(Stage::Clear(displacements));
         let table = self.loops.tables.len() - 1;
         let listed = |column| Row::Listed { table, column };
-        let mut body = Body::new();
+        let mut body = Body::default();
         let value = body.read(effects, Row::EACH, 1)[0];
         let column = body.six(columns, listed(0));
         let sum = body.six(displacements, listed(1));

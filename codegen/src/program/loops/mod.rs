@@ -6,17 +6,15 @@
 //! loops, `body` builds a loop body, `draft` builds a routine from such bodies, `walk` follows the
 //! frames, and `functions` has the loops of each function.
 
-mod body;
 mod functions;
 mod routine_builder;
-mod span;
 mod sums;
 mod walk;
 
 use abbe_core::Function;
 
 use self::routine_builder::RoutineBuilder;
-pub(super) use self::span::FrameLoops;
+pub(super) use self::sums::FrameLoops;
 use super::routine::{Array, Routine, Stage, Sums, Table};
 use crate::chain::{Covariance, Displacement};
 

@@ -1,12 +1,13 @@
-//! Builder of a routine: its arrays and its stages so far.
+//! Builder of a routine: its arrays and its stages so far, and of a loop body, where the rows that
+//! it reads become symbols of its own graph.
 
 use abbe_core::function::Count;
+use abbe_spec::expr::Symbol;
 
-use super::body::Body;
-use super::span::FrameLoops;
+use super::sums::FrameLoops;
 use crate::chain::Rows;
-use crate::graph::Vector;
-use crate::program::routine::{Array, ArrayRows, Repeated, Role, Row, Stage};
+use crate::graph::{Frame, Graph, Node, Vector};
+use crate::program::{Array, ArrayRows, Block, Program, Repeated, Role, Row, Stage};
 
 /// Dimensions of a pose.
 pub(super) const POSE: [Count; 2] = [Count::Exactly(4), Count::Exactly(3)];
@@ -73,7 +74,7 @@ impl<'d, 'm> RoutineBuilder<'d, 'm> {
     /// functions that compute no rows 4–6.
     pub(super) fn margin_alone(&mut self, axis: impl FnOnce(&mut Body) -> Vector) {
         let Some(margin) = self.margin() else { return };
-        let mut body = Body::new();
+        let mut body = Body::default();
         let axis = axis(&mut body);
         let rows = Rows::new(&mut body.graph, self.loops.orientation, axis);
         body.write(margin, Row::All, &rows.margin().into_iter().collect::<Vec<_>>());
@@ -87,7 +88,7 @@ impl<'d, 'm> RoutineBuilder<'d, 'm> {
             return RowsArray::ROTATION_VECTOR;
         };
         let euler = self.zeros("euler", &[Count::Exactly(Rows::PARTS)]);
-        let mut body = Body::new();
+        let mut body = Body::default();
         let axis = axis(&mut body);
         let rows = Rows::new(&mut body.graph, self.loops.orientation, axis);
         body.write(euler, Row::All, &rows.parts());
@@ -111,5 +112,55 @@ impl RowsArray {
             None => Rows::RotationVector,
             Some((last, array)) => Rows::from_parts(last, &body.read(array, Row::All, Rows::PARTS)),
         }
+    }
+}
+
+#[derive(Default)]
+pub(super) struct Body {
+    pub(super) graph: Graph,
+    reads: Vec<ArrayRows>,
+    numbers: usize,
+    writes: Vec<ArrayRows>,
+    outputs: Vec<Node>,
+}
+
+impl Body {
+    /// Reads `count` numbers of a row.
+    pub(super) fn read(&mut self, array: usize, row: Row, count: usize) -> Vec<Node> {
+        self.reads.push(ArrayRows { array, row });
+        let first = self.numbers;
+        self.numbers += count;
+        (first..self.numbers).map(|number| self.graph.symbol(Symbol::Local(number))).collect()
+    }
+
+    pub(super) fn vector(&mut self, array: usize, row: Row) -> Vector {
+        let numbers = self.read(array, row, 3);
+        [0, 1, 2].map(|i| numbers[i])
+    }
+
+    pub(super) fn six(&mut self, array: usize, row: Row) -> [Node; 6] {
+        let numbers = self.read(array, row, 6);
+        [0, 1, 2, 3, 4, 5].map(|i| numbers[i])
+    }
+
+    /// Reads velocity and rotation.
+    pub(super) fn twist(&mut self, array: usize, row: Row) -> [Vector; 2] {
+        let [a, b, c, d, e, f] = self.six(array, row);
+        [[a, b, c], [d, e, f]]
+    }
+
+    pub(super) fn frame(&mut self, array: usize, row: Row) -> Frame {
+        Frame::from_entries(&self.read(array, row, 12))
+    }
+
+    /// Writes nodes to a row.
+    pub(super) fn write(&mut self, array: usize, row: Row, nodes: &[Node]) {
+        self.writes.push(ArrayRows { array, row });
+        self.outputs.extend(nodes);
+    }
+
+    pub(super) fn stage(self, repeated: Option<Repeated>) -> Stage {
+        let Self { graph, reads, writes, outputs, .. } = self;
+        Stage::Block(Block { reads, program: Program::new(&graph, &outputs), writes, repeated })
     }
 }

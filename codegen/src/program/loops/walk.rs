@@ -2,9 +2,8 @@
 
 use abbe_core::function::Count;
 
-use super::body::Body;
-use super::routine_builder::{POSE, RoutineBuilder};
-use super::span::FrameLoops;
+use super::routine_builder::{Body, POSE, RoutineBuilder};
+use super::sums::FrameLoops;
 use crate::chain::displaced;
 use crate::graph::Node;
 use crate::program::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage};
@@ -75,7 +74,7 @@ impl RoutineBuilder<'_, '_> {
     fn walk(&mut self) {
         let [terms, frames] = ["terms", "frames"].map(|name| self.array(name));
         self.call("chain_links", &[terms, frames]);
-        let mut body = Body::new();
+        let mut body = Body::default();
         let (at, link) = (body.frame(frames, Row::EACH), body.frame(frames, Row::NEXT));
         let next = body.graph.then(&at, &link);
         body.write(frames, Row::NEXT, &next.entries());
@@ -94,7 +93,7 @@ impl RoutineBuilder<'_, '_> {
         let links = self.links();
         let pose = self.array("pose");
         self.copy(links, Row::Last, pose);
-        let mut body = Body::new();
+        let mut body = Body::default();
         let (link, behind) = (body.frame(links, Row::NEXT), body.frame(pose, Row::All));
         let next = body.graph.then(&link, &behind);
         body.write(pose, Row::All, &next.entries());
@@ -111,14 +110,14 @@ impl RoutineBuilder<'_, '_> {
         let links = self.links();
         let pose = self.array("pose");
         self.copy(links, Row::First, pose);
-        let mut body = Body::new();
+        let mut body = Body::default();
         let (at, link) = (body.frame(pose, Row::All), body.frame(links, Row::NEXT));
         let errors = body.six(errors, Row::EACH);
         let nominal = body.graph.then(&at, &link);
         let real = displaced(&mut body.graph, nominal, &errors);
         body.write(pose, Row::All, &real.entries());
         self.each(Count::Frames, body);
-        let mut body = Body::new();
+        let mut body = Body::default();
         let (at, tool) = (body.frame(pose, Row::All), body.frame(links, Row::Last));
         let next = body.graph.then(&at, &tool);
         body.write(pose, Row::All, &next.entries());

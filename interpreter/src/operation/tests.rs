@@ -1,4 +1,4 @@
-//! Tests of `chains.rs`.
+//! Tests of `operation.rs`.
 
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::Routines;
