@@ -85,13 +85,16 @@ pub fn mutants(text: &str, most: usize, is_mutated: impl Fn(&str) -> bool) -> Ve
             function = Some(name);
         } else if let Some(name) = function.as_ref().filter(|name| is_mutated(name)) {
             // The number of rounds is no operation.
+            // What a configuration keeps for which a branch is not taken is no operation.
+            let is_masked = line.contains("np.where(case_");
+            let (line, kept) = line.split_at(line.rfind(", ").filter(|_| is_masked).unwrap_or(line.len()));
             for (kind, from, to) in KINDS.into_iter().filter(|_| !line.contains("in range(")) {
                 if let Some(wrong) = replaced(line, from, to) {
-                    sites.entry((name.clone(), kind)).or_default().push((index, wrong));
+                    sites.entry((name.clone(), kind)).or_default().push((index, wrong + kept));
                 }
             }
             if let Some(wrong) = with_another_number(line) {
-                sites.entry((name.clone(), "number")).or_default().push((index, wrong));
+                sites.entry((name.clone(), "number")).or_default().push((index, wrong + kept));
             }
         }
     }

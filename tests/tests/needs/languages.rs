@@ -193,7 +193,7 @@ fn mutants_of(language: Language) -> Result<(), Missing> {
     let is_own =
         |name: &str| Function::ALL.iter().any(|function| function.name() == name.trim_start_matches('_'));
     let is_shared =
-        |name: &str| !is_own(name) && !matches!(name.trim_start_matches('_'), "given" | "checked");
+        |name: &str| !is_own(name) && !matches!(name.trim_start_matches('_'), "given" | "are_given");
     let own = survivors(&measured, &is_own);
     assert!(own.is_empty(), "{own:#?}");
     let [three, mut six] = [&measured, &six_joints].map(|spec| survivors(spec, &is_shared));

@@ -61,7 +61,8 @@ impl<'m> Commands<'m> {
         }
         // Numbers of a ten-thousandth of the largest correction: rounding errors and the tolerances
         // of single precision are smaller, what a wrong step leaves is larger.
-        let share = if self.real == Real::Double { 1e-7 } else { 1e-3 };
+        // Beyond a limit the iterations do not end: only the status counts, and the size.
+        let share = [1e-7, 1e-3, 1.0][if shares[4] > 0.0 { 2 } else { self.real as usize }];
         let [least, most] = [-1.0, 1.0].map(|sign| self.results(signature, &command, shares, sign));
         let ((numbers, status), (others, other)) = (least?, most?);
         let mut sums = Vec::new();
@@ -93,7 +94,8 @@ impl<'m> Commands<'m> {
     }
 
     /// Returns the results and the status, with the largest rounding errors, of a sign, in the
-    /// functions of nodes; none if they are not finite, or if a status may be another one in single precision.
+    /// functions of nodes; none if they are not finite, or if a status may be another one in single
+    /// precision.
     fn results(
         &self,
         signature: &Signature,
@@ -143,8 +145,7 @@ impl<'m> Commands<'m> {
         };
         let status = if status == Status::NotReached { Status::NotConverged } else { status };
         let (distance, angle) = norms(&after);
-        let is_near = distance * self.description.length.in_metres() < 1e-4 && angle < 1e-4;
-        let is_open = matches!(status, Status::NotConverged | Status::Held) && is_near;
-        (!is_open).then_some((results, status))
+        let is_far = distance * self.description.length.in_metres() > 1e-4 || angle > 1e-4;
+        (is_far || matches!(status, Status::Reached | Status::OutsideLimits)).then_some((results, status))
     }
 }

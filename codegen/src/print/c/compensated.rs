@@ -20,15 +20,12 @@ pub(super) fn declaration(
     signature: &Signature,
     real: Real,
 ) {
-    let is_own = |status: &Status| match *status {
-        Status::Reached => false,
-        Status::NotReached => true,
-        _ => signature.name != BEGIN.name,
-    };
-    let own: Vec<&'static str> = Status::ALL.into_iter().filter(is_own).map(Status::name).collect();
+    let is_begin = signature.name == BEGIN.name;
+    let own = |status: &Status| *status != Status::Reached && (!is_begin || *status == Status::NotReached);
+    let own: Vec<&'static str> = Status::ALL.into_iter().filter(own).map(Status::name).collect();
     let upper = spec.name.to_ascii_uppercase();
     let reached = real.precision().meaning(Status::Reached);
-    let end = if signature.name == BEGIN.name {
+    let end = if is_begin {
         format!(
             "With `{upper}_OK` and `{upper}_NOT_REACHED`, `after` is what is left. `{upper}_OK`: {reached} With any other \
              status, nothing is written. Arrays may overlap: `command` may be `q`"

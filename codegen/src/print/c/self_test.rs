@@ -194,7 +194,8 @@ impl CPrinter<'_> {
         let call = format!("{name}_compensated({})", given.chain(results).collect::<Vec<_>>().join(", "));
         let wrong = COMPENSATED.results.iter().enumerate().map(|(i, array)| {
             let (array, len) = (array.name, array.len(description));
-            format!("sums_to({array}, {len}, expected[(4 * k) + {i}], tolerances[(4 * k) + {i}]) == 0")
+            let at = if i == 0 { "4 * k".to_owned() } else { format!("(4 * k) + {i}") };
+            format!("sums_to({array}, {len}, expected[{at}], tolerances[{at}]) == 0")
         });
         let text = [
             ("CASES", calls.len().to_string()),

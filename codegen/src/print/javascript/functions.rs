@@ -96,14 +96,11 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
         writer.lines("/**");
         documentation(writer, &routines.description, signature, Some(["status", &statuses]));
         writer.documentation_line("");
-        if !is_begin {
-            writer.documentation(WITHOUT_LAST);
-        }
-        writer.documentation(THROWS);
+        writer.documentation(&format!("{}{THROWS}", if is_begin { "" } else { WITHOUT_LAST }));
         writer.lines(" */");
         let further = if is_begin { "" } else { ", last, change, largest" };
         writer.open(&format!("export function {}(q, s, u{further}, rotations = [1, 1, 1])", signature.name));
-        writer.lines("given(q, s, u);\nchecked('rotations', rotations, 3);");
+        writer.lines("are_given(q, s, u);\ngiven('rotations', rotations, 3);");
         if !is_begin {
             writer.lines(CHECKS);
         }
@@ -119,7 +116,7 @@ const HELPERS: &str = include_str!("given.js");
 
 /// Arguments that may be left out.
 const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have any size. With it, `change` and `largest` are \
-     those of `description.variables` if they are left out.";
+     those of `description.variables` if they are left out. ";
 
 const THROWS: &str = "Without `rotations`, the whole pose is reached. Throws a RangeError if an argument has another length, \
      a number is not finite or an input is outside its range.";

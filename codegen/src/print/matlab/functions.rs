@@ -123,10 +123,7 @@ pub(super) fn compensated(writer: &mut Writer, class: &str, spec: &Spec, routine
         writer.begin(&format!("function [{results}] = {name}({})", names.join(", ")));
         documentation(writer, description, signature, Some(["status", &statuses]));
         writer.documentation_line("");
-        if !is_begin {
-            writer.documentation(WITHOUT_LAST);
-        }
-        writer.documentation(RAISES);
+        writer.documentation(&format!("{}{RAISES}", if is_begin { "" } else { WITHOUT_LAST }));
         let count = spec.variables.len().to_string();
         let defaults = if is_begin { "" } else { DEFAULTS };
         writer.lines(&defaults.replace("COUNT", &count).replace("CLASS", class));
@@ -149,7 +146,7 @@ pub(super) fn compensated(writer: &mut Writer, class: &str, spec: &Spec, routine
 
 /// Arguments that may be left out.
 const WITHOUT_LAST: &str = "Without last, no cycle precedes: corrections have any size. With it, change and largest are those \
-     of the class if they are left out.";
+     of the class if they are left out. ";
 
 const RAISES: &str = "Without rotations, the whole pose is reached. Raises an error if an argument has another number of \
      elements, a number is not finite or an input is outside its range.";

@@ -104,7 +104,9 @@ fn turn(b: &mut Body<'_>, cycle: &Cycle, units: Array, count: usize) {
             b.set(shift.at(j), moved.clamped(low.at(j), high.at(j)));
         });
         b.when(first.is(j), |b| {
-            b.set(held.at(j), 1.0);
+            b.comment("Rounding released a variable that does not move: it stays until the next pass.");
+            b.set(held.at(j), 2.0);
+            b.when(share.get().exceeds(0.0), |b| b.set(held.at(j), 1.0));
             b.set(shift.at(j), goal.at(j).clamped(low.at(j), high.at(j)));
         });
     });
@@ -113,7 +115,8 @@ fn turn(b: &mut Body<'_>, cycle: &Cycle, units: Array, count: usize) {
         b.set(furthest, 0.0);
         b.set_whole(released, Whole::Index((-1).into()));
         b.each("j", [0, count], |b, j| {
-            b.when(held.at(j).exceeds(0.0), |b| {
+            let may_move = held.at(j).exceeds(0.0).and(Value::from(1.0).is_at_least(held.at(j)));
+            b.when(may_move, |b| {
                 b.set(part, columns.dot(steps, [0, 6], |k| [6 * j + k, k + count]));
                 b.set(part, center.at(j) + part.get());
                 b.set(end, part.get().clamped(low.at(j), high.at(j)));
@@ -131,6 +134,7 @@ fn turn(b: &mut Body<'_>, cycle: &Cycle, units: Array, count: usize) {
         b.when(Value::from(0.0).is_at_least(furthest), |b| {
             b.set(passes, passes.get() + 1.0);
             b.copy(center, shift);
+            b.each("j", [0, count], |b, j| b.set(held.at(j), held.at(j).clamped(0.0, 1.0)));
             b.when(passes.get().is_at_least((PASSES - 1) as f64), |b| {
                 b.comment("The last pass keeps to what the cycle permits.");
                 b.each("j", [0, count], |b, j| {

@@ -14,7 +14,8 @@
 //! squares, Computational Statistics 10, 1995): d moves towards the minimum of the free joints, up
 //! to the first end that one of them meets, which is then held. At that minimum, of the held joints
 //! whose `clamp(c_j + J_jᵀ z)` is elsewhere, the one whose `c_j + J_jᵀ z` is furthest is released.
-//! Every move reduces the function, so that no set of held joints comes twice.
+//! Every move reduces the function, so that no set of held joints comes twice; one that does not
+//! move is held until the next pass.
 
 use super::shortest::{add, dot, pull};
 use super::{Bounds, Problem, clamped};
@@ -77,11 +78,12 @@ impl Problem<'_> {
                 d[j] = clamped(d[j] + share * (goal[j] - d[j]), [lower[j], upper[j]]);
             }
             if let Some((j, end)) = first {
-                (held[j], d[j]) = (1.0, end);
+                // Rounding released a joint that does not move: it stays until the next pass.
+                (held[j], d[j]) = (if share > 0.0 { 1.0 } else { 2.0 }, end);
                 continue;
             }
             let (mut furthest, mut released) = (0.0, None);
-            for j in (0..d.len()).filter(|j| held[*j] > 0.0) {
+            for j in (0..d.len()).filter(|j| 0.0 < held[*j] && held[*j] < 2.0) {
                 let far = Scalar::abs(goal[j] - d[j]);
                 if clamped(goal[j], [lower[j], upper[j]]) != d[j] && far > furthest {
                     (furthest, released) = (far, Some(j));
@@ -93,6 +95,7 @@ impl Problem<'_> {
             }
             passes += 1;
             center.copy_from_slice(d);
+            held.iter_mut().for_each(|held| *held = held.min(1.0));
             if passes == PASSES - 1 {
                 for j in 0..d.len() {
                     (lower[j], upper[j]) = (about(&bounds.lower, j), about(&bounds.upper, j));
