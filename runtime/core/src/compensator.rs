@@ -31,7 +31,7 @@ mod shortest;
 
 pub use self::begin::{Begun, begin};
 pub use self::cycle::{CHANGE, Compensated, Cycle, LARGEST, REACHED, Status, bound};
-pub use self::departure::{PASSES, solves};
+pub use self::departure::{PASSES, RELEASES, solves};
 pub use self::shortest::DAMPING;
 pub use crate::chain::LEAST_SINE;
 

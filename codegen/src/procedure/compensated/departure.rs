@@ -1,14 +1,14 @@
 //! Step within the bounds of the cycle.
 
-use abbe_core::compensator::{PASSES, solves};
+use abbe_core::compensator::{PASSES, RELEASES, solves};
 
 use super::variables::Cycle;
 use crate::procedure::build::{Array, Real};
 use crate::procedure::{Body, Counter, Value, Whole};
 
 /// Returns the variables of the step, in radians and metres from the command: the ends of the
-/// intervals, the step, what the pass before found, the minimum of the free joints, and 1 for each
-/// joint that is held.
+/// intervals, the step, what the pass before found, the minimum of the free joints, and how often a
+/// joint was released: −r of a free one, 1 + r of one that is held.
 fn joints(b: &mut Body<'_>, count: usize) -> [Array; 6] {
     ["low", "high", "shift", "center", "goal", "held"].map(|name| b.array(name, count))
 }
@@ -104,9 +104,7 @@ fn turn(b: &mut Body<'_>, cycle: &Cycle, units: Array, count: usize) {
             b.set(shift.at(j), moved.clamped(low.at(j), high.at(j)));
         });
         b.when(first.is(j), |b| {
-            b.comment("Rounding released a variable that does not move: it stays until the next pass.");
-            b.set(held.at(j), 2.0);
-            b.when(share.get().exceeds(0.0), |b| b.set(held.at(j), 1.0));
+            b.set(held.at(j), -held.at(j) + 1.0);
             b.set(shift.at(j), goal.at(j).clamped(low.at(j), high.at(j)));
         });
     });
@@ -115,7 +113,7 @@ fn turn(b: &mut Body<'_>, cycle: &Cycle, units: Array, count: usize) {
         b.set(furthest, 0.0);
         b.set_whole(released, Whole::Index((-1).into()));
         b.each("j", [0, count], |b, j| {
-            let may_move = held.at(j).exceeds(0.0).and(Value::from(1.0).is_at_least(held.at(j)));
+            let may_move = held.at(j).exceeds(0.0).and(Value::from(RELEASES).is_at_least(held.at(j)));
             b.when(may_move, |b| {
                 b.set(part, columns.dot(steps, [0, 6], |k| [6 * j + k, k + count]));
                 b.set(part, center.at(j) + part.get());
@@ -129,7 +127,7 @@ fn turn(b: &mut Body<'_>, cycle: &Cycle, units: Array, count: usize) {
             });
         });
         b.each("j", [0, count], |b, j| {
-            b.when(released.is(j), |b| b.set(held.at(j), 0.0));
+            b.when(released.is(j), |b| b.set(held.at(j), -held.at(j)));
         });
         b.when(Value::from(0.0).is_at_least(furthest), |b| {
             b.set(passes, passes.get() + 1.0);

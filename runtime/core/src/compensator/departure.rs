@@ -14,8 +14,9 @@
 //! squares, Computational Statistics 10, 1995): d moves towards the minimum of the free joints, up
 //! to the first end that one of them meets, which is then held. At that minimum, of the held joints
 //! whose `clamp(c_j + J_jᵀ z)` is elsewhere, the one whose `c_j + J_jᵀ z` is furthest is released.
-//! Every move reduces the function, so that no set of held joints comes twice; one that does not
-//! move is held until the next pass.
+//! Every move reduces the function, so that no set of held joints comes twice, except by rounding:
+//! a joint is released at most [`RELEASES`] times in a pass. `held` counts: it is −r for a free
+//! joint that was released r times, 1 + r for a held one.
 
 use super::shortest::{add, dot, pull};
 use super::{Bounds, Problem, clamped};
@@ -23,6 +24,9 @@ use crate::Scalar;
 
 /// Number of passes m.
 pub const PASSES: usize = 4;
+
+/// Largest number of times that a joint is released in a pass.
+pub const RELEASES: f64 = 2.0;
 
 /// Returns the largest number of systems of six equations that are solved in a cycle: each joint
 /// may meet its bounds and leave them several times.
@@ -78,24 +82,23 @@ impl Problem<'_> {
                 d[j] = clamped(d[j] + share * (goal[j] - d[j]), [lower[j], upper[j]]);
             }
             if let Some((j, end)) = first {
-                // Rounding released a joint that does not move: it stays until the next pass.
-                (held[j], d[j]) = (if share > 0.0 { 1.0 } else { 2.0 }, end);
+                (held[j], d[j]) = (1.0 - held[j], end);
                 continue;
             }
             let (mut furthest, mut released) = (0.0, None);
-            for j in (0..d.len()).filter(|j| 0.0 < held[*j] && held[*j] < 2.0) {
+            for j in (0..d.len()).filter(|j| 0.0 < held[*j] && held[*j] <= RELEASES) {
                 let far = Scalar::abs(goal[j] - d[j]);
                 if clamped(goal[j], [lower[j], upper[j]]) != d[j] && far > furthest {
                     (furthest, released) = (far, Some(j));
                 }
             }
             if let Some(j) = released {
-                held[j] = 0.0;
+                held[j] = -held[j];
                 continue;
             }
             passes += 1;
             center.copy_from_slice(d);
-            held.iter_mut().for_each(|held| *held = held.min(1.0));
+            held.iter_mut().for_each(|held| *held = clamped(*held, [0.0, 1.0]));
             if passes == PASSES - 1 {
                 for j in 0..d.len() {
                     (lower[j], upper[j]) = (about(&bounds.lower, j), about(&bounds.upper, j));
