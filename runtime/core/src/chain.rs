@@ -2,9 +2,9 @@
 //!
 //! Generated code never calls it; it verifies generated code.
 
-#[cfg(feature = "std")]
-use crate::{Class, Error, Manipulator, Quantity, checks};
 use crate::{Component, Description, Orientation, Pose, Scalar};
+#[cfg(feature = "std")]
+use crate::{Error, Quantity, checks};
 
 /// Returns `A_1 A_2 … A_n · T`, the tool pose in `F_0`. `transforms` holds `A_1 … A_n` and `T`.
 pub fn chain(transforms: &[Pose]) -> Pose {
@@ -64,43 +64,6 @@ pub fn open_pose(
     let pose = tool_pose(description, &nominal, errors);
     checks::finite(Quantity::Pose, pose.0.as_flattened())?;
     Ok(pose)
-}
-
-/// Returns the exact pose of the tool point with the errors of every source times its magnitude,
-/// equation (6).
-///
-/// `magnitudes` has one entry per source: 1 for a repeatable source, the drawn value for a random
-/// one, 0 to leave a source out. Errors of parameters of `A_i` apply first, `A_i(q + δq, s + δs)`;
-/// then errors at other points of its link in the order of the spec, `L E_M L⁻¹`; then the sum of
-/// the errors of the frame itself. Errors as for [`Manipulator::effects`].
-#[cfg(feature = "std")]
-pub fn drawn_pose<M: Manipulator + ?Sized>(
-    manipulator: &M,
-    q: &[f64],
-    s: &[f64],
-    u: &[f64],
-    magnitudes: &[f64],
-) -> Result<Pose, Error> {
-    if let Some(pose) = manipulator.drawn_pose(q, s, u, magnitudes)? {
-        return Ok(pose);
-    }
-    let description = manipulator.description();
-    checks::length(Quantity::Magnitudes, [description.sources.len(), 1], magnitudes.len())?;
-    let mut effects = std::vec![0.0; description.effects.len()];
-    let mut errors = std::vec![[0.0; 6]; description.frames.len()];
-    manipulator.effects(q, s, u, &mut effects)?;
-    for (effect, value) in description.effects.iter().zip(effects) {
-        errors[effect.frame][effect.component.index()] += value * magnitudes[effect.source];
-    }
-    manipulator.displaced_pose(q, s, &errors)
-}
-
-/// Returns the magnitudes that select the repeatable sources: 1 for each repeatable source, 0 for
-/// each random one.
-#[cfg(feature = "std")]
-pub fn repeatable_magnitudes(description: &Description) -> std::vec::Vec<f64> {
-    let one = |class| if class == Class::Repeatable { 1.0 } else { 0.0 };
-    description.sources.iter().map(|source| one(source.class)).collect()
 }
 
 /// Returns `E_i`: translation `(e_x, e_y, e_z)` and rotation `R = R_y(e_s) R_z(e_r) R_x(e_p)`.
@@ -165,7 +128,7 @@ pub fn euler_margin(orientation: Orientation, pose: &Pose) -> f64 {
 }
 
 /// Returns the components along the axes that follow `axis` in cyclic order, itself first.
-fn renamed(axis: usize, vector: [f64; 3]) -> [f64; 3] {
+pub(crate) fn renamed(axis: usize, vector: [f64; 3]) -> [f64; 3] {
     core::array::from_fn(|i| vector[(axis + i) % 3])
 }
 
@@ -182,25 +145,6 @@ pub fn rotation_vector(pose: &Pose) -> [f64; 3] {
     // angle / (2 sin angle) → 1/2 for small angles.
     let scale = if twice_sine < LEAST_SINE { 0.5 } else { angle / twice_sine };
     v.map(|component| component * scale)
-}
-
-/// Returns a column with rows 4–6 converted to the small rotation in `F_0` axes. `pose` is the tool
-/// pose.
-///
-/// For Euler rows, in [renamed](Orientation::last_axis) axes, `ω = σ̇ ŷ + ρ̇ R_y(σ) ẑ + π̇ R_T x̂`,
-/// which is defined where the rows are.
-#[cfg(feature = "lanes")]
-pub fn twist(orientation: Orientation, pose: &Pose, column: &[f64; 6]) -> [f64; 6] {
-    let Some(axis) = orientation.last_axis() else { return *column };
-    // The x axis of the tool is (cos σ cos ρ, sin ρ, −sin σ cos ρ).
-    let [r11, r21, r31] = renamed(axis, pose.0[axis]);
-    let cosine = r11.hypot(r31);
-    let (sin_spin, cos_spin) = (-r31 / cosine, r11 / cosine);
-    let [x, y, z, spin, roll, pitch] = *column;
-    let turn = [roll * sin_spin + pitch * r11, spin + pitch * r21, roll * cos_spin + pitch * r31];
-    // Back to the axes of F_0: three cyclic renamings are none.
-    let [a, b, c] = renamed((3 - axis) % 3, turn);
-    [x, y, z, a, b, c]
 }
 
 fn wrap(angle: f64) -> f64 {

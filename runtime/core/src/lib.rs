@@ -13,6 +13,8 @@ pub mod compensator;
 mod component;
 mod description;
 pub mod distinct;
+#[cfg(feature = "std")]
+mod drawn_pose;
 mod error;
 mod floats;
 pub mod function;
@@ -29,6 +31,8 @@ mod shared;
 #[doc(hidden)]
 pub mod sin_cos;
 mod source;
+#[cfg(feature = "lanes")]
+mod twist;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
@@ -48,18 +52,18 @@ pub mod sampling;
 #[cfg(test)]
 extern crate self as abbe_core;
 
-#[cfg(feature = "lanes")]
-pub use chain::twist;
+#[cfg(feature = "std")]
+pub use chain::open_pose;
 pub use chain::{
     chain, deviation, displacement, euler_margin, located, real_pose, rotation_vector, tool_pose,
 };
-#[cfg(feature = "std")]
-pub use chain::{drawn_pose, open_pose, repeatable_magnitudes};
 pub use component::Component;
 pub use description::{
     Branch, Description, Frame, Input, LengthUnit, Orientation, Parameter, SumLimit, Variable, VariableKind,
 };
 pub use distinct::ErrorColumns;
+#[cfg(feature = "std")]
+pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
 pub use error::{Error, MINIMUM_MARGIN, Remedy};
 pub use function::Function;
 
@@ -71,6 +75,8 @@ pub use quantity::Quantity;
 pub use scalar::{LookupTable, Scalar};
 pub use shared::{List, Text};
 pub use source::{Class, Distribution, Effect, Source, whole};
+#[cfg(feature = "lanes")]
+pub use twist::twist;
 
 /// Includes every module that `abbe_codegen::compile` generated in this crate's build script.
 ///

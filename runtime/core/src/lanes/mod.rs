@@ -45,6 +45,7 @@ mod instruction_set;
 mod one_by_one;
 mod run;
 mod scalar;
+mod sweepable;
 #[cfg(test)]
 mod tests;
 mod tiles;
@@ -55,5 +56,6 @@ pub use instruction_set::{InstructionSet, Kernel};
 pub use one_by_one::{OneByOne, one_by_one};
 #[doc(hidden)]
 pub use run::put_margin;
-pub use run::{Evaluate, Named, Sweepable, check, run};
+pub use run::{Evaluate, Named, check, run};
+pub use sweepable::Sweepable;
 pub use tiles::Tiles;

@@ -1,9 +1,10 @@
 //! Batches for a manipulator without code for lanes: one configuration after the other.
 
 use super::{Batches, Tiles, check};
+use crate::twist::twist;
 use crate::{
     Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, euler_margin,
-    repeatable_magnitudes, twist,
+    repeatable_magnitudes,
 };
 
 /// Wrapper that gives any manipulator batches: each configuration is evaluated by the methods of

@@ -6,14 +6,6 @@ use crate::scalar::ROUND;
 use crate::sin_cos;
 use crate::{LookupTable, Scalar};
 
-macro_rules! by_lane {
-    ($($function:ident),+) => {$(
-        fn $function(self) -> Self {
-            self.map(Scalar::$function)
-        }
-    )+};
-}
-
 impl<R: Register> Scalar for Lanes<R> {
     #[inline(always)]
     fn constant(value: f64) -> Self {
@@ -60,7 +52,21 @@ impl<R: Register> Scalar for Lanes<R> {
         pairs
     }
 
-    by_lane!(tan, asin, acos, atan, exp, ln);
+    fn tan(self) -> Self {
+        self.map(Scalar::tan)
+    }
+
+    fn asin(self) -> Self {
+        self.map(Scalar::asin)
+    }
+
+    fn acos(self) -> Self {
+        self.map(Scalar::acos)
+    }
+
+    fn atan(self) -> Self {
+        self.map(Scalar::atan)
+    }
 
     #[cfg_attr(debug_assertions, inline(never))]
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -85,6 +91,14 @@ impl<R: Register> Scalar for Lanes<R> {
     #[inline(always)]
     fn sign(self) -> Self {
         self.map(Scalar::sign)
+    }
+
+    fn exp(self) -> Self {
+        self.map(Scalar::exp)
+    }
+
+    fn ln(self) -> Self {
+        self.map(Scalar::ln)
     }
 
     #[cfg_attr(debug_assertions, inline(never))]
