@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use abbe::VariableKind;
 use abbe::identify::Loss;
+use abbe_metrology::AcceptanceVerdict;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};
 use abbe_metrology::identify::{self, Family, Harmonics, Prior, Report, Settings};
-use abbe_metrology::{Acceptance, AcceptanceVerdict};
 use abbe_report::text::{Detail, wrapped};
 use abbe_report::views;
 use abbe_spec::Spec;
@@ -103,7 +103,7 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
         time: arguments.time,
         points: arguments.page.report.is_some(),
     };
-    let accept = Acceptance::given("--accept", arguments.accept.as_deref(), &machine.spec, &map)?;
+    let accept = map.limits("--accept", arguments.accept.as_deref(), &machine.spec)?;
     let harmonics = harmonics(&arguments.harmonics, &machine.spec)?;
     let terms = arguments.terms.concat();
     let mut job = identify::Identify { machine, map, data, test, terms, harmonics, settings, accept };

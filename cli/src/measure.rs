@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use abbe_metrology::AcceptanceVerdict;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::measure::{self, Report};
-use abbe_metrology::{Acceptance, AcceptanceVerdict};
 use abbe_report::views;
 use abbe_spec::Spec;
 use clap::{Args, ValueEnum};
@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
     map.is_corrected |= arguments.corrected;
     arguments.dated.date(&mut map.record);
     let data = Data::read(&arguments.measured.data, &map)?;
-    let accept = Acceptance::given("--accept", arguments.accept.as_deref(), &machine.spec, &map)?;
+    let accept = map.limits("--accept", arguments.accept.as_deref(), &machine.spec)?;
     let job = measure::Measure { machine, map, data, accept };
     let mut outputs = Outputs::new(&job, arguments.common.writing.force);
     let files = match &arguments.out {

@@ -1,14 +1,12 @@
 //! Acceptance limits on the errors of test rows.
 
 use abbe::LengthUnit;
-use abbe_spec::Spec;
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
 use serde::Serialize;
 
-use crate::data::Map;
 use crate::sizes::Sizes;
 use abbe_study::number;
 
@@ -92,11 +90,6 @@ impl AcceptanceVerdict {
 }
 
 impl Acceptance {
-    /// Reads the limits given to `option`; without any, returns those of the map.
-    pub fn given(option: &str, text: Option<&str>, spec: &Spec, map: &Map) -> Result<Self, Diagnostics> {
-        text.map_or_else(|| Ok(map.accept.clone()), |text| Self::read(option, text, spec.length))
-    }
-
     /// Parses `mean 0.15 mm, max 0.3 mm`, with `target fitted` among them or not. Mistakes are
     /// reported under the name `option`.
     pub fn read(option: &str, text: &str, length: LengthUnit) -> Result<Self, Diagnostics> {

@@ -3,7 +3,6 @@
 
 use std::sync::Arc;
 
-use abbe_metrology::Acceptance;
 use abbe_metrology::data::Data;
 use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};
 use abbe_metrology::identify::{Family, Identify, Prior, Settings};
@@ -70,7 +69,7 @@ impl Machine {
         let ((job, report), notes) = run(py, threads, progress, |notes| {
             let machine = self.machine.clone();
             let test = unseen.as_ref().map(|test| Data::read(test.source(), &map)).transpose()?;
-            let accept = Acceptance::given("accept", accept, &machine.spec, &map)?;
+            let accept = map.limits("accept", accept, &machine.spec)?;
             let data = Data::read(measured.source(), &map)?;
             test.iter().chain([&data]).for_each(|data| unusable(data, notes));
             let data = resample.map_or_else(|| data.clone(), |number| data.resampled(0, number));

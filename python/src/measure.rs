@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use abbe_metrology::Acceptance;
 use abbe_metrology::data::Data;
 use abbe_metrology::measure::Measure;
 use abbe_report::views;
@@ -46,7 +45,7 @@ impl Machine {
             let machine = self.machine.clone();
             let mut map = if new_station { map.newly_stationed() } else { map };
             map.is_corrected |= corrected;
-            let accept = Acceptance::given("accept", accept, &machine.spec, &map)?;
+            let accept = map.limits("accept", accept, &machine.spec)?;
             let data = Data::read(measured.source(), &map)?;
             unusable(&data, notes);
             let job = Measure { data, machine, map, accept };

@@ -10,21 +10,11 @@
 use abbe_spec::expr::{Elementary, Function, Motion, Symbol};
 use abbe_spec::{ChainNumber, Factor, Spec};
 
+use super::frame_twist::FrameTwist;
 use super::local::Local;
 use super::symbol_jacobian::{Steps, twist};
 use super::tree;
 use crate::graph::{Graph, Node, Op, Vector};
-
-/// Velocity and rotation per unit of a number of the chain, in the axes of a frame.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameTwist {
-    /// The frame, from 0.
-    pub frame: usize,
-    /// Velocity of the frame's origin.
-    pub velocity: Vector,
-    /// Rotation about the frame's axes.
-    pub rotation: Vector,
-}
 
 /// Returns the twist of every frame that depends on a number of the chain. The tool's twist is
 /// added to that of the frame that carries it; a leg that becomes longer moves the frame at its end

@@ -1,15 +1,15 @@
-//! Remainder of the first-order prediction, as a node to be maximized, with the unknowns that
-//! equations define.
+//! Remainder of the first-order prediction, as a node to be maximized.
 
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
+use super::implicit::Implicit;
 use super::kinematics::of_repeatable;
 use super::magnitudes::Magnitude;
 use super::real::RealChain;
 use super::sources;
 use super::tree::curvature;
-use crate::graph::{Graph, Node};
+use crate::graph::Graph;
 
 /// Remainder of the tool point's position after `J_e ε` of the repeatable sources.
 ///
@@ -57,35 +57,5 @@ impl Remainder {
         let half_curvature = g.scale(half, curvature);
         let magnitude = Magnitude::length(g, half_curvature);
         Some(Self { graph, magnitude, share, implicit })
-    }
-}
-
-/// Unknowns y that equations `F(x, y) = 0` define as functions of the other symbols x.
-#[derive(Clone, Debug)]
-pub struct Implicit {
-    /// Sets of unknowns, each with F, of as many entries.
-    pub sets: Vec<(Vec<Symbol>, Vec<Node>)>,
-    /// Columns of `∂F/∂y`, one per unknown; the same for all sets.
-    pub columns: Vec<Vec<Node>>,
-    /// Values of the unknowns of a single set at home, from where they are followed; `None` if F is
-    /// linear in the unknowns.
-    pub home: Option<Vec<f64>>,
-}
-
-impl Implicit {
-    /// Returns the symbols on which nodes depend, those of the equations of their unknowns
-    /// included. `all` has unknowns after those on which their equations depend.
-    pub fn symbols(graph: &Graph, nodes: &[Node], all: &[Self]) -> Vec<Symbol> {
-        let mut symbols = graph.symbols(nodes);
-        for implicit in all.iter().rev() {
-            for (unknowns, residual) in &implicit.sets {
-                if unknowns.iter().any(|unknown| symbols.contains(unknown)) {
-                    symbols.extend(graph.symbols(&[residual.clone(), implicit.columns.concat()].concat()));
-                }
-            }
-        }
-        symbols.sort_unstable();
-        symbols.dedup();
-        symbols
     }
 }

@@ -8,8 +8,9 @@ use abbe_spec::expr::Symbol;
 use abbe_spec::{Cause, ChainNumber, Deviation, DeviationCause, Effect, Identified, Source, Spec, Uncertain};
 
 use super::accumulate::{six, vectors};
-use super::deviation::{FrameTwist, frame_twists};
+use super::deviation::frame_twists;
 use super::elastic::{Element, Loads};
+use super::frame_twist::FrameTwist;
 use super::walk::{transform, walk};
 use crate::graph::{Frame, Graph, Node};
 

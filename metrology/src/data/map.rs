@@ -120,6 +120,11 @@ pub struct Map {
 }
 
 impl Map {
+    /// Reads the limits given to `option`; without any, returns those of the map.
+    pub fn limits(&self, option: &str, text: Option<&str>, spec: &Spec) -> Result<Acceptance, Diagnostics> {
+        text.map_or_else(|| Ok(self.accept.clone()), |text| Acceptance::read(option, text, spec.length))
+    }
+
     /// Creates the map of a file whose columns have the names of variables and inputs of the spec,
     /// in coherent units. Inputs without a column are nominal.
     pub fn from_names(header: &[String], spec: &Spec) -> Self {

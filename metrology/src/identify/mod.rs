@@ -3,26 +3,26 @@
 //! `options` are the user's settings. `setup` places the machine relative to the instrument, by
 //! places `registered` in closed form, `open_places` finds what the map does not place,
 //! `line_of_sight` moves the machine to where instruments can be read, and `instruments` estimates
-//! their uncertainties. `board_check` tests the corners of a camera's board,
-//! `interpretation_check` the `map_interpretation`, `plausibility` finds errors too large for a
-//! machine. `job` runs all of it, and counts test rows that were fitted.
+//! their uncertainties. `board_check` tests the corners of a camera's board, `interpretation_check`
+//! the `map_interpretation`, `plausibility` finds errors too large for a machine. `job` runs all of
+//! it, and counts test rows that were fitted.
 //!
-//! `solve` fits and cross-validates with `priors`, and `row_notes` warns of gross errors and of what
-//! rows cannot say. `between_stations` includes the differences of the machine between stations,
-//! `between_blocks` those between regions and runs of rows. `terms` are errors of richer models,
-//! `families` and `candidates` those that are tried, and `derived` the inputs computed from the row
-//! order. `choose` selects the terms that help, `complete_fit` fits constants with them, `extended`
-//! adds them and magnitudes of sources to the spec. `profiles` adds errors of joints by many cycles per turn, each as a
-//! `profile_table`; `joint_profiles` are their results.
+//! `solve` fits and cross-validates with `priors`, and `row_notes` warns of gross errors and of
+//! what rows cannot say. `between_stations` includes the differences of the machine between
+//! stations, `between_blocks` those between regions and runs of rows. `terms` are errors of richer
+//! models, `families` and `candidates` those that are tried, and `derived` the inputs computed from
+//! the row order. `choose` selects the terms that help, `complete_fit` fits constants with them,
+//! `extended` adds them and magnitudes of sources to the spec. `profiles` adds errors of joints by
+//! many cycles per turn, each as a `profile_table`; `joint_profiles` are their results.
 //!
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
 //! targets, `fitted` their values. `spec_writer` writes its spec, `compliance_writer` full
-//! compliances, `covariance_writer` the
-//! `found_covariance`, `unexplained` the errors that the model does not have, and `map_writer`
-//! the map; `read_back` evaluates both. The `report` contains `as_joint_errors` (errors as
-//! `chain_numbers`: zeros and lengths) and their `alternatives`, what is `indistinguishable`,
-//! `parameters`, the `scale`, the `gain` over other models (`compare`), `known_distances` with their
-//! residuals, and `point_residuals` for plots. `unread` are instruments without a reading.
+//! compliances, `covariance_writer` the `found_covariance`, `unexplained` the errors that the model
+//! does not have, and `map_writer` the map; `read_back` evaluates both. The `report` contains
+//! `as_joint_errors` (errors as `chain_numbers`: zeros and lengths) and their `alternatives`, what
+//! is `indistinguishable`, `parameters`, the `scale`, the `gain` over other models (`compare`),
+//! `known_distances` with their residuals, and `point_residuals` for plots. `unread` are
+//! instruments without a reading.
 
 mod alternatives;
 mod as_joint_errors;

@@ -18,9 +18,9 @@ use super::factored::Factored;
 use super::parts::Parts;
 use super::system::LoopSystem;
 use super::units::{Units, at_home, passive_at_home};
+use crate::chain::implicit::Implicit;
 use crate::chain::kinematics::{magnitudes, of_repeatable};
 use crate::chain::real::RealChain;
-use crate::chain::remainder::Implicit;
 use crate::chain::sources::{Causes, PlacedErrors};
 use crate::graph::{Frame, Graph, Node, Vector};
 

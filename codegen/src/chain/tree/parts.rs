@@ -22,8 +22,8 @@ use super::closure::{self, Ends, Wrenches, wrenches};
 use super::factored::Factored;
 use super::units::{Units, passive_at_home};
 use super::view::{Motion, View};
+use crate::chain::implicit::Implicit;
 use crate::chain::kinematics::Kinematics;
-use crate::chain::remainder::Implicit;
 use crate::chain::rows::Rows;
 use crate::graph::{Frame, Graph, Node, Vector};
 

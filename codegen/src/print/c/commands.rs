@@ -52,11 +52,10 @@ impl<'m> Commands<'m> {
     }
 
     fn call(&self, signature: &Signature, mut shares: [f64; 5]) -> Option<Call> {
-        let q = &self.given[0].1;
-        let mut command = q.clone();
+        let mut command = self.given[0].1.clone();
         if shares[4] > 0.0 {
             let (at, [lower, upper]) = self.limited()?;
-            shares[4] = self.real.nearest(upper - q[at] + shares[4] * (upper - lower));
+            shares[4] = self.real.nearest(upper - command[at] + shares[4] * (upper - lower));
             command[at] += shares[4];
         }
         // Numbers of a ten-thousandth of the largest correction: rounding errors and the tolerances

@@ -158,20 +158,8 @@ impl CPrinter<'_> {
     /// Prints the calls of corrected commands within several bounds.
     fn cases(&mut self, commands: &Commands<'_>, calls: &[Call], number: usize) {
         let (description, real) = (&self.routines.description, self.real);
-        let (name, count) = (&description.name, description.variables.len());
-        let upper = name.to_ascii_uppercase();
-        self.comment(
-            "Nothing holds the correction, bounds hold it in several ways, or a command is beyond a limit.",
-        );
+        let name = &description.name;
         self.writer.open("if (trial < 0)");
-        for array in ["command", "first", "change", "largest"] {
-            self.writer.lines(&format!("{real} {array}[{count}];"));
-        }
-        let ones = vec![real.number(1.0); 3];
-        self.writer.braces(&format!("{real} rotations[3] = "), &ones, ";");
-        for array in COMPENSATED.results {
-            self.writer.lines(&format!("{real} {}[{}];", array.name, array.len(description)));
-        }
         let mut list = |name: &str, numbers: Vec<f64>| {
             let numbers: Vec<String> = numbers.into_iter().map(|number| real.number(number)).collect();
             let head = format!("static const {real} {name}[{}] = ", numbers.len());
@@ -183,31 +171,18 @@ impl CPrinter<'_> {
         list("tolerances", sums().map(|[_, tolerance]| upwards(*tolerance)).collect());
         let statuses = calls.iter().map(|call| self.code(call.status.name())).collect::<Vec<_>>();
         self.writer.braces(&format!("static const int statuses[{}] = ", calls.len()), &statuses, ";");
-        let given = COMPENSATED.arguments.iter().filter(|array| !array.is_empty(description));
-        let given = given.map(|array| match array.name {
-            "q" => "command".to_owned(),
-            "last" => "first".to_owned(),
-            "s" | "u" => format!("given_{}", array.name),
-            other => other.to_owned(),
-        });
-        let results = COMPENSATED.results.iter().map(|array| array.name.to_owned());
-        let call = format!("{name}_compensated({})", given.chain(results).collect::<Vec<_>>().join(", "));
-        let wrong = COMPENSATED.results.iter().enumerate().map(|(i, array)| {
-            let (array, len) = (array.name, array.len(description));
-            let at = if i == 0 { "4 * k".to_owned() } else { format!("(4 * k) + {i}") };
-            format!("sums_to({array}, {len}, expected[{at}], tolerances[{at}]) == 0")
-        });
+        let given = COMPENSATED.arguments.iter().filter(|array| matches!(array.name, "s" | "u"));
+        let given = given.filter(|array| !array.is_empty(description));
         let text = [
             ("CASES", calls.len().to_string()),
-            ("COUNT", count.to_string()),
+            ("COUNT", description.variables.len().to_string()),
             ("JOINT", commands.limited().map_or(0, |(at, _)| at).to_string()),
-            ("CALL", call),
-            ("WRONG", wrong.collect::<Vec<_>>().join(" || ")),
+            ("GIVEN ", given.map(|array| format!("given_{}, ", array.name)).collect()),
             ("NUMBER", number.to_string()),
-            ("UPPER", upper),
+            ("UPPER", name.to_ascii_uppercase()),
             ("NAME", name.to_string()),
         ];
-        let text = text.iter().fold(CASES.to_owned(), |text, (word, with)| text.replace(word, with));
+        let text = text.iter().fold(real.text(CASES), |text, (word, with)| text.replace(word, with));
         self.writer.lines(text.trim_end());
         self.writer.close("}");
     }

@@ -155,8 +155,7 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     }
     let statuses = Precision::Double.statuses();
     for (signature, _) in &commands {
-        let without = if signature.name == BEGIN.name { "" } else { WITHOUT_LAST };
-        let end = format!("{without}Without `rotations`, the whole pose is reached. {RAISES}");
+        let end = format!("{}{RAISES}", if signature.name == BEGIN.name { "" } else { WITHOUT_LAST });
         face(writer, &routines.description, signature, Some(["status", &statuses]), Some(&end));
     }
     writer.blank();
@@ -187,7 +186,8 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
 const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have any size. With it, `change` and `largest` are \
      those of the variables in `description` if they are left out. ";
 
-const RAISES: &str = "Raises ValueError if a number is not finite or an input is outside its range";
+const RAISES: &str = "Without `rotations`, the whole pose is reached. Raises ValueError if a number is not finite or an \
+     input is outside its range";
 
 /// Sums have the same bits for one configuration and for many.
 const HELPERS: &str = include_str!("dot.py");

@@ -2,8 +2,8 @@
 //!
 //! Each file is one part of it: `source_report` holds each source alone and the names of
 //! configurations, `combined` all sources, the draws and rows 4–6, `ledger` the ranking and the
-//! parts of the sources, `tolerance_verdict` the verdicts, `uncertainty_budget` the budget after the
-//! GUM, and `comparison` the published figures.
+//! parts of the sources, `tolerance_verdict` the verdicts, `uncertainty_budget` the budget after
+//! the GUM, and `comparison` the published figures.
 
 mod combined;
 mod comparison;

@@ -7,7 +7,7 @@ pub(super) const REPORTS: [(&str, &str, &[&str]); 17] = [
     ("BoundReport", "abbe_study::bound::report::Report", &["bound"]),
     ("CheckReport", "abbe_study::check::Report", &["check"]),
     ("CompensateReport", "abbe_metrology::compensate::Report", &["compensate"]),
-    ("DoctorReport", "abbe_metrology::doctor::report::Report", &["doctor"]),
+    ("DoctorReport", "abbe_metrology::doctor::job::Report", &["doctor"]),
     ("ExploreReport", "abbe_study::explore::report::Report", &["explore"]),
     ("ExportReport", "abbe_exchange::export::report::ExportReport", &["export"]),
     ("IdentifyReport", "abbe_metrology::identify::report::Report", &["identify"]),

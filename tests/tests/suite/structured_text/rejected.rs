@@ -35,7 +35,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("d1 := q[0];", "FOR d1 := 0 TO 1 DO fault := TRUE; END_FOR;", "a counter is a local variable of DINT"),
     ("d1 := q[0];", "FOR k := 0 TO 1 DO fault := TRUE; END_WHILE;", "expected END_FOR"),
     ("d1 := q[0];", "status := k;", "expected Int, found Dint"),
-    ("IF is_outside THEN", "(* IF is_outside THEN", "a comment does not end"),
+    ("last[j] := q[j] - best[j];", "(* last[j] := q[j] - best[j];", "a comment does not end"),
     ("d1 := q[0];", "d1 := q[0]; (* a (* comment *)", "a comment in a comment"),
     ("d1 := q[0];", "d1 := q[0]; // a comment", "expected a name"),
     ("d1 := q[0];", "d1 := q[0]; {pragma}", "unexpected `{`"),
