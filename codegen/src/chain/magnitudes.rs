@@ -11,7 +11,7 @@ use abbe_spec::expr::{Function, Symbol};
 
 use super::accumulate::{Displacement, Links, vectors};
 use super::by_source::errors_by_source;
-use super::remainder::Implicit;
+use super::implicit::Implicit;
 use super::rows::Rows;
 use super::sources;
 use super::tree::Parts;
