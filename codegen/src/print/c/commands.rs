@@ -16,10 +16,11 @@ const CASES: [[f64; 5]; 5] = [
     [0.0, 1e3, 1e3, 1.0, 0.0],
     // The change of the first cycle does.
     [0.0, 0.25, 1.0, 1.0, 0.0],
-    // Its size does in some joints, after a correction of another size.
+    [0.0, 1.0, 1.0, 1.0, 1e-3],
+    // Its size does in some joints, after a correction of another size. In single precision the
+    // joints that are held depend on rounding errors.
     [-1.0, 2.0, 0.02, 0.0, 0.0],
     [4.0, 8.0, 0.005, 1.0, 0.0],
-    [0.0, 1.0, 1.0, 1.0, 1e-3],
 ];
 
 /// A call with the sums of its results, each weighted 1 to 7 cyclically, and with their tolerances.
@@ -47,8 +48,8 @@ impl<'m> Commands<'m> {
 
     /// Returns the calls whose results rounding errors do not change by more than the tolerance.
     pub(super) fn calls(&self, signature: &Signature) -> Vec<Call> {
-        let cases = if signature.name == COMPENSATED.name { &CASES[..] } else { &CASES[..1] };
-        cases.iter().filter_map(|shares| self.call(signature, *shares)).collect()
+        let count = if signature.name == COMPENSATED.name { [5, 3][self.real as usize] } else { 1 };
+        CASES[..count].iter().filter_map(|shares| self.call(signature, *shares)).collect()
     }
 
     fn call(&self, signature: &Signature, mut shares: [f64; 5]) -> Option<Call> {
