@@ -14,7 +14,7 @@ pub(super) const REPORTS: [(&str, &str, &[&str]); 17] = [
     ("ImportReport", "abbe_exchange::import::report::ImportReport", &["import"]),
     ("JacobianReport", "abbe_study::jacobian::Report", &["jacobian"]),
     ("MeasureReport", "abbe_metrology::measure::Report", &["measure"]),
-    ("MonitorReport", "abbe_metrology::monitor::report::Report", &["monitor"]),
+    ("MonitorReport", "abbe_metrology::monitor::job::Report", &["monitor"]),
     ("PlanReport", "abbe_metrology::plan::report::Report", &["plan"]),
     ("PositioningReport", "abbe_metrology::positioning::Report", &["positioning"]),
     ("ShippedManipulator", "abbe_study::list::ShippedManipulator", &["list"]),
