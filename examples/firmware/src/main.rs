@@ -85,7 +85,11 @@ mod tests {
         let mut wrong = command(0.0);
         wrong[2] = f64::NAN;
         assert!(matches!(controller.cycle(&wrong), Err(Fault::Model(_))));
+        controller.reset(drives);
         wrong[2] = -30.0;
+        assert_eq!(controller.cycle(&wrong), Err(Fault::Elsewhere));
+        controller.reset(drives);
+        controller.cycle(&command(0.0)).unwrap();
         assert_eq!(controller.cycle(&wrong), Err(Fault::OutsideLimits));
         // A wrong model: an arm a thousand times as soft.
         let soft = Parameters { arm_EI: Parameters::NOMINAL.arm_EI / 1000.0, ..Parameters::NOMINAL };
