@@ -89,7 +89,7 @@ mod tests {
         wrong[2] = -30.0;
         assert_eq!(controller.cycle(&wrong), Err(Fault::Elsewhere));
         controller.reset(drives);
-        controller.cycle(&command(0.0)).unwrap();
+        let drives = controller.cycle(&command(0.0)).unwrap().q;
         assert_eq!(controller.cycle(&wrong), Err(Fault::OutsideLimits));
         // A wrong model: an arm a thousand times as soft.
         let soft = Parameters { arm_EI: Parameters::NOMINAL.arm_EI / 1000.0, ..Parameters::NOMINAL };
