@@ -313,7 +313,7 @@ fn interface(writer: &mut Writer, spec: &Spec, description: &Description, signat
 }
 
 const WHEN: &str = "TRUE begins anew where the drives stand: set it in each cycle in which they do not move, and in the \
-     first one in which they do. No drive then moves further than change in that cycle.";
+     first one in which they do. No drive then moves further than change in that cycle, if q is within the limits.";
 
 const STANDING: &str = "Where the drives stand while resume is TRUE, in the order and the units of q.";
 

@@ -48,8 +48,8 @@ impl<const N: usize> Cycle<[f64; N]> {
     }
 
     /// Begins anew where the drives stand, at the start and after a stop: the next cycle, with
-    /// `command`, moves none of them further than its `change`, however far the command is from
-    /// them.
+    /// `command`, moves none of them further than its `change`, however far a command within the
+    /// limits is from them. One beyond a limit has [`Status::OutsideLimits`]: do not send it.
     pub fn resume(&mut self, command: &[f64; N], drives: &[f64; N]) {
         self.last = core::array::from_fn(|j| drives[j] - command[j]);
     }
