@@ -152,18 +152,20 @@ impl Diagnostics {
 }
 
 /// Returns the known name most similar to a word, if any is similar enough.
-pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // A single edit always counts as similar, even in short words.
     let similarity = |candidate: &str| match strsim::damerau_levenshtein(word, candidate) {
         1 if word.chars().count() > 2 => 1.0,
         _ => strsim::jaro_winkler(word, candidate),
     };
-    known
-        .into_iter()
-        .map(|candidate| (similarity(candidate), candidate))
+    let known: Vec<&str> = known.into_iter().collect();
+    let in_other_case = known.iter().find(|candidate| candidate.eq_ignore_ascii_case(word));
+    let similar = known
+        .iter()
+        .map(|candidate| (similarity(candidate), *candidate))
         .filter(|(similarity, _)| *similarity > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate)
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    in_other_case.copied().or(similar.map(|(_, candidate)| candidate))
 }
 
 /// Returns the file in the same folder whose name is most similar to that of a missing one.

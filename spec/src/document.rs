@@ -128,6 +128,9 @@ impl Document {
                 Some(name) if is_table && is_duplicate => {
                     format!("write `[[{name}]]` for an array of tables, or merge the two tables")
                 }
+                Some(",") if let Some(number) = with_point(text, span.start) => {
+                    format!("write a decimal point: `{number}`")
+                }
                 _ => "expected TOML: `key = value`, `[table]`".to_owned(),
             };
             self.found.borrow_mut().push(Diagnostic::new(span, message).help(help));
@@ -402,8 +405,9 @@ impl<'d> Item<'d> {
         let dimension = entry.dimension.unwrap_or(Dimension::NONE);
         if !dimension.takes_bare(value?) {
             let message = format!("{} must be {dimension}, not a number without a unit", entry.what);
-            let help =
-                format!("add a unit, in quotes: `\"{text} {}\"`", dimension.unit(scope.length.symbol()));
+            let units = dimension.units(scope.length.symbol());
+            let texts = units.iter().map(|unit| format!("`\"{text} {unit}\"`")).collect::<Vec<_>>();
+            let help = format!("add its unit, in quotes: {}", texts.join(" or "));
             return self.document.fail(Diagnostic::new(span, message).label("this has no unit").help(help));
         }
         Some(Expression::number(value?, dimension, place))
@@ -433,6 +437,15 @@ impl<'d> Item<'d> {
         let values = entries.map(|item| item.quantity(dimension));
         values.into_iter().collect::<Option<Vec<f64>>>()?.try_into().ok()
     }
+}
+
+/// Returns the number around a comma between digits, with a point.
+fn with_point(text: &str, comma: usize) -> Option<String> {
+    let [before, after] = [text.get(..comma)?, text.get(comma + 1..)?];
+    let is_digit = |c: char| c.is_ascii_digit();
+    let whole = &before[before.rfind(|c| !is_digit(c)).map_or(0, |at| at + 1)..];
+    let part = &after[..after.find(|c| !is_digit(c)).unwrap_or(after.len())];
+    (!whole.is_empty() && !part.is_empty()).then(|| format!("{whole}.{part}"))
 }
 
 /// Keys that every table may have for human readers only.

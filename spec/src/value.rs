@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Span, listed, nearest};
 use crate::document::{Document, Item};
 use crate::expr::{
     Allowed, Dimension, Entry, FUNCTION_NAMES, LocatedText, Scope, TextLocation, Token, UNIT_NAMES,
-    parse_expression, tokens,
+    parse_expression, tokens, unit_help,
 };
 
 /// Returns the value of the number, or of the constant expression, at `span` of the document's
@@ -69,9 +69,9 @@ fn unknown_word(word: &str, span: Span) -> Option<Diagnostic> {
     if known.contains(&word) {
         return None;
     }
-    let help = match nearest(word, known) {
+    let help = match nearest(word, FUNCTION_NAMES) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "a value is a number with or without a unit: `90deg`, `1.2m`, `pi/2`".to_owned(),
+        None => unit_help(word),
     };
     let message = format!("`{}` is neither a unit nor a function", word.escape_debug());
     Some(Diagnostic::new(span, message).label("unknown here").help(help))

@@ -53,7 +53,7 @@ pub const WITHOUT_EFFECT: [(&str, &str); 5] = [
     ("cost", "number"),
     // The loop ends before the first value of what is held is read.
     ("departure", "negation"),
-    // The rotation vector of an angle below 1e-150, whatever its scale, is as small.
+    // The rotation vector of an angle below 1e-37, whatever its scale, is as small.
     ("deviation", "number"),
     // Both sides of the equation of a rotation change their sign.
     ("weighted", "sum in place"),

@@ -4,6 +4,8 @@
 //!
 //! Files of generated code.
 
+use std::collections::BTreeMap;
+
 use abbe_core::Description;
 use abbe_core::function::Array;
 use abbe_spec::visible::alters_text;
@@ -26,12 +28,14 @@ pub(super) struct Writer {
     depth: usize,
     /// Start of a documentation line.
     comment: &'static str,
+    /// Types of arrays that the text has used, by name, where they need names.
+    pub(super) arrays: BTreeMap<String, String>,
 }
 
 impl Writer {
     /// Creates an empty text whose documentation lines start with `comment`.
     pub(super) fn new(comment: &'static str) -> Self {
-        Self { text: String::new(), depth: 0, comment }
+        Self { text: String::new(), depth: 0, comment, arrays: BTreeMap::new() }
     }
 
     pub(super) fn finish(self) -> String {

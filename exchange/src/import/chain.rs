@@ -4,7 +4,7 @@
 //!
 //! Multiples of 45° that a file has with too few digits.
 
-use std::f64::consts::FRAC_PI_4;
+use std::f64::consts::{FRAC_PI_4, PI};
 
 use abbe::LengthUnit;
 use abbe_spec::option::ROUND_ANGLES;
@@ -62,7 +62,7 @@ pub(crate) struct Frame {
     pub(crate) upward: bool,
 }
 
-/// Motion by `multiplier · q + offset` along or about a unit vector.
+/// Motion by `multiplier · q + offset` along or about a unit vector, and by another variable.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
     pub(crate) prismatic: bool,
@@ -70,6 +70,8 @@ pub(crate) struct Motion {
     /// Index of the variable `q`.
     pub(crate) variable: usize,
     pub(crate) multiplier: f64,
+    /// Index of another variable that is added, and its sign.
+    pub(crate) with: Option<(usize, f64)>,
     pub(crate) offset: f64,
 }
 
@@ -90,13 +92,34 @@ impl Chain {
         let frame = |pose: Isometry3<f64>, frame: &Frame| {
             let motion = match &frame.motion {
                 None => Isometry3::identity(),
-                Some(Motion { prismatic, axis, variable, multiplier, offset }) => {
-                    joint_motion(*prismatic, *axis, multiplier * q[*variable] + offset)
+                Some(Motion { prismatic, axis, variable, multiplier, with, offset }) => {
+                    let other = with.map_or(0.0, |(other, sign)| sign * q[other]);
+                    joint_motion(*prismatic, *axis, multiplier * q[*variable] + other + offset)
                 }
             };
             pose * frame.geometry.before() * motion * frame.geometry.after()
         };
         self.frames.iter().fold(Isometry3::identity(), frame) * self.tool.motion()
+    }
+
+    /// Returns configuration `k` of those at which chains are compared, which fill the limits evenly.
+    pub(crate) fn sample(&self, k: usize) -> Vec<f64> {
+        let value = |(v, variable): (usize, &Variable)| {
+            let [lower, upper] = variable.limits.unwrap_or([-PI, PI]);
+            // Multiples of the square roots of different integers.
+            lower + (upper - lower) * (k as f64 * (v as f64 + 2.0).sqrt()).fract()
+        };
+        self.variables.iter().enumerate().map(value).collect()
+    }
+
+    /// Returns the largest distance in mm of the tool point from that of a chain with other angles.
+    pub fn largest_shift(&self, other: &Self) -> f64 {
+        let shift = |k| {
+            let q = self.sample(k);
+            (self.pose(&q).translation.vector - other.pose(&q).translation.vector).norm()
+        };
+        let millimetres = 1e3 * self.length.in_metres();
+        millimetres * (1..=CONFIGURATIONS).map(shift).fold(0.0, f64::max)
     }
 
     /// Returns the index of the frame that declares a variable: that of its joint, or else the
@@ -172,8 +195,14 @@ impl Geometry {
     }
 }
 
+/// Number of configurations at which chains are compared.
+pub(crate) const CONFIGURATIONS: usize = 100;
+
 /// Largest distance from a multiple of 45°, in rad, that counts as rounding in the file.
 const TOLERANCE: f64 = 1e-5;
+
+/// Largest distance from a multiple of 45°, in rad, of an angle that was probably meant to be one.
+const NEAR: f64 = 2e-3;
 
 /// Counts the angles of a file that are multiples of 45° but for rounding, and restores them on
 /// request.
@@ -181,22 +210,36 @@ const TOLERANCE: f64 = 1e-5;
 pub struct AngleRounding {
     /// Replaces such an angle by the multiple.
     round: bool,
+    /// Largest distance that counts as rounding.
+    tolerance: f64,
     count: usize,
     /// Largest distance from a multiple, in rad.
     farthest: f64,
+    /// Angles further off that were probably meant to be multiples.
+    near: Vec<f64>,
 }
 
 impl AngleRounding {
     /// Starts to count; with `round` set, `angle` restores the multiples.
     pub fn new(round: bool) -> Self {
-        Self { round, count: 0, farthest: 0.0 }
+        Self { round, tolerance: TOLERANCE, count: 0, farthest: 0.0, near: Vec::new() }
+    }
+
+    /// Restores those that were probably meant, too, if there are any.
+    pub fn as_meant(&self) -> Option<Self> {
+        (!self.near.is_empty()).then(|| Self { tolerance: NEAR, ..Self::new(true) })
     }
 
     /// Counts an angle in rad and returns it, rounded to the multiple if that is requested.
     pub(crate) fn angle(&mut self, angle: f64) -> f64 {
         let multiple = (angle / FRAC_PI_4).round() * FRAC_PI_4;
         let off = (multiple - angle).abs();
-        if off == 0.0 || off > TOLERANCE {
+        if off == 0.0 || off > self.tolerance {
+            // Angles of a calibrated machine have more digits.
+            let is_short = (angle * 1e4).round() / 1e4 == angle;
+            if is_short && 0.0 < off && off < NEAR {
+                self.near.push(angle);
+            }
             return angle;
         }
         self.count += 1;
@@ -204,10 +247,28 @@ impl AngleRounding {
         if self.round { multiple } else { angle }
     }
 
-    /// Notes the number of such angles, and the largest change.
-    pub fn note(&self, notes: &mut dyn Notes) {
-        let Self { round, count, farthest } = self;
+    /// Notes the number of such angles, and the largest change; and those that are further off, with
+    /// the `shift` of the tool point in mm that multiples in their place would cause.
+    pub fn note(&self, shift: f64, notes: &mut dyn Notes) {
+        let Self { round, count, farthest, near, .. } = self;
+        if !near.is_empty() {
+            let off = |angle: &f64| ((angle / FRAC_PI_4).round() * FRAC_PI_4 - angle).abs();
+            let most = near.iter().map(off).fold(0.0, f64::max);
+            let listed: Vec<String> = near.iter().take(4).map(f64::to_string).collect();
+            notes.warn(&format!(
+                "{} ({}{} rad) by up to {:.1} mrad off a multiple of 45°{}; multiples would move the tool by up to {shift:.2} mm; \
+                 if they are meant, correct the file",
+                if near.len() == 1 { "1 angle is".to_owned() } else { format!("{} angles are", near.len()) },
+                listed.join(", "),
+                if near.len() > 4 { ", …" } else { "" },
+                1e3 * most,
+                if *round { ", too far to be rounded" } else { "" }
+            ));
+        }
         if *count == 0 {
+            if *round && near.is_empty() {
+                notes.note("no angle was rounded: each is a multiple of 45°, or not near one");
+            }
             return;
         }
         let one = *count == 1;

@@ -1,6 +1,5 @@
 //! Spec of an imported chain, compared with the file.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 use abbe::Manipulator;
@@ -9,11 +8,8 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::{Diagnostics, Notes, Spec, mistake};
 use serde::Serialize;
 
-use super::chain::{Chain, Frame};
+use super::chain::{CONFIGURATIONS, Chain, Frame};
 use super::spec_writer;
-
-/// Configurations at which the spec is compared with the file.
-const CONFIGURATIONS: usize = 100;
 
 /// Largest difference that is rounding, per unit of length of the arm.
 const ROUNDING: f64 = 1e-12;
@@ -105,13 +101,7 @@ fn largest_difference(chain: &Chain, spec: Spec) -> Result<f64, Diagnostics> {
     let s = sampling::nominal_parameters(description);
     let mut largest = 0.0_f64;
     for k in 1..=CONFIGURATIONS {
-        // Multiples of the square roots of different integers fill the ranges evenly.
-        let fraction = |v: usize| (k as f64 * (v as f64 + 2.0).sqrt()).fract();
-        let value = |v: usize| {
-            let [lower, upper] = chain.variables[v].limits.unwrap_or([-PI, PI]);
-            lower + (upper - lower) * fraction(v)
-        };
-        let q: Vec<f64> = (0..chain.variables.len()).map(value).collect();
+        let q = chain.sample(k);
         // The variables of the spec have an order of their own.
         let index = |name: &str| chain.variables.iter().position(|variable| variable.name == name);
         let ordered: Vec<f64> =
@@ -125,8 +115,14 @@ fn largest_difference(chain: &Chain, spec: Spec) -> Result<f64, Diagnostics> {
             }
         }
     }
-    let reach = 1.0 + chain.frames.iter().map(|frame| frame.geometry.size()).sum::<f64>();
-    if largest > ROUNDING * reach {
+    // Rounding grows with the travels of slides and with the turns of joints.
+    let farthest = |prismatic: bool| {
+        let some = chain.variables.iter().filter(move |one| one.prismatic == prismatic);
+        some.filter_map(|one| one.limits).map(|[lower, upper]| lower.abs().max(upper.abs()))
+    };
+    let lengths = chain.frames.iter().map(|frame| frame.geometry.size());
+    let reach = 1.0 + lengths.chain(farthest(true)).sum::<f64>();
+    if largest > ROUNDING * reach * farthest(false).fold(1.0, f64::max) {
         let message = format!("the written spec differs from the file by {largest:.1e}");
         let help = "this is an error in abbe: please report it with the file";
         return Err(mistake::with_help("abbe import", message, help));

@@ -109,7 +109,7 @@ abbe_spec::tables! {
     ]
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], [
         "column": COLUMN, "-", "required without `value`", "Heading of the column";
-        "unit": Text("unit"), "-", "required without `value`", "Unit of the column's numbers; `1` is a pure number";
+        "unit": Text("unit"), "-", "required without `value`", "Unit of the column's numbers; `1` is a pure number, `360 deg/4096` the size of a count";
         "sign": Number("`1` or `-1`"), "1", "`1`", "`-1` if the file counts the joint in the opposite direction";
         "zero": NUMBER, "length unit or rad; of inputs as the spec's", "`0`",
             "Value of the joint or input at which the column is 0; it is added after unit and sign";

@@ -174,7 +174,10 @@ pub(super) fn columns<const N: usize>(section: &Section<'_>, key: &str) -> Optio
     columns.try_into().ok()
 }
 
-/// Reads `unit`, a text such as "deg", as a factor to coherent units.
+/// Words for one step of an encoder or a motor, whose size only the user knows.
+const COUNTS: [&str; 8] = ["count", "cnt", "inc", "increment", "pulse", "step", "tick", "digit"];
+
+/// Reads `unit`, a text such as "deg" or, for counts, "360 deg/4096", as a factor to coherent units.
 pub(super) fn unit(section: &Section<'_>, dimension: Dimension) -> Option<f64> {
     let item = section.required("unit")?;
     let name = item.string()?;
@@ -188,7 +191,15 @@ pub(super) fn unit(section: &Section<'_>, dimension: Dimension) -> Option<f64> {
     if name.trim() == "1" && dimension == Dimension::NONE {
         return Some(1.0);
     }
-    let text = format!("1 {name}");
+    let is_size = name.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '.');
+    let text = if is_size { name.clone() } else { format!("1 {name}") };
+    if COUNTS.contains(&name.trim().to_lowercase().trim_end_matches('s')) {
+        let help = match dimension {
+            Dimension::LENGTH => "write the size of one: `unit = \"5 mm/2000\"`",
+            _ => "write the size of one: `unit = \"360 deg/4096\"`",
+        };
+        return item.refuse(format!("the size of a {} is unknown", name.trim().escape_debug()), help);
+    }
     let line = Document::new("", text.as_str());
     let what = format!("the unit `{}`", name.escape_debug());
     let factor = parse_value(&line, 0..text.trim_end().len(), section.document.length, dimension, &what);

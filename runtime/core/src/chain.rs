@@ -134,7 +134,7 @@ pub(crate) fn renamed(axis: usize, vector: [f64; 3]) -> [f64; 3] {
 
 /// Limit on twice the sine of an angle below which its square underflows; the rotation vector is
 /// then half the antisymmetric part.
-pub const LEAST_SINE: f64 = 1e-150;
+pub const LEAST_SINE: f64 = 1e-37;
 
 /// Returns the rotation vector of a rotation: its axis times its angle.
 pub fn rotation_vector(pose: &Pose) -> [f64; 3] {

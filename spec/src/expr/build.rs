@@ -42,7 +42,7 @@ impl<'b> Builder<'b> {
                 // A bare number takes the unit of the entry.
                 whole.dimension = Some(expected);
             } else {
-                let unit = expected.unit(self.scope.length.symbol());
+                let units = expected.units(self.scope.length.symbol()).join("`, `");
                 let message = format!("{} must be {expected}, not {found}", entry.what);
                 let mistake = Diagnostic::new(whole.span.clone(), message).label(format!("this is {found}"));
                 let help = if Dimension::NONE.over(expected) == Some(found) {
@@ -52,7 +52,7 @@ impl<'b> Builder<'b> {
                 } else if expected == Dimension::NONE {
                     "angles and slopes are pure numbers: `0.1`, `5 deg`, `d1/(1600 mm)`".to_owned()
                 } else {
-                    format!("use {unit} or a compatible unit")
+                    format!("use `{units}` or a compatible unit")
                 };
                 self.found.push(mistake.help(help));
             }

@@ -97,6 +97,30 @@ impl Dimension {
         }
     }
 
+    /// Returns units that engineers use for the dimension: the coherent one if there are no others.
+    pub fn units(self, length: &str) -> Vec<String> {
+        let [metres, mass, time, kelvins] = self.halves;
+        let force = [0, mass, time, kelvins] == [0, 2, -4, 0];
+        let inverse = [0, mass, time, kelvins] == [0, -2, 4, 0];
+        let of_length = |power: i8, unit: &str| match power {
+            1 => unit.to_owned(),
+            power => format!("{unit}^{power}"),
+        };
+        match (metres - 2) / 2 {
+            _ if metres % 2 != 0 => vec![self.unit(length)],
+            0 if force => vec!["N".to_owned()],
+            _ if self == Self::PRESSURE => vec!["Pa".to_owned(), "GPa".to_owned()],
+            power if force && power > 0 => {
+                ["m", "mm"].map(|unit| format!("N*{}", of_length(power, unit))).to_vec()
+            }
+            power if force => ["m", "mm"].map(|unit| format!("N/{}", of_length(-power, unit))).to_vec(),
+            _ if inverse && metres == 0 => ["mm/N", "um/N"].map(str::to_owned).to_vec(),
+            _ if inverse && metres == -4 => vec!["rad/(N*m)".to_owned()],
+            _ if self == Self::ACCELERATION => vec!["m/s^2".to_owned()],
+            _ => vec![self.unit(length)],
+        }
+    }
+
     fn combine(self, other: Self, with: fn(i8, i8) -> Option<i8>) -> Option<Self> {
         let mut halves = [0; 4];
         for (i, half) in halves.iter_mut().enumerate() {

@@ -18,7 +18,7 @@ use super::function::FUNCTION_NAMES;
 use super::scope::Allowed;
 use super::tokens::{Token, tokens};
 use super::{Binary, Dimension, Entry, Expression, Function, LocatedText, Scope, TextLocation, Unit};
-use crate::diagnostic::{Diagnostic, Span, nearest, suggestion};
+use crate::diagnostic::{Diagnostic, Span, suggestion};
 
 /// Maximum nesting depth of parentheses, functions, signs and powers.
 const DEPTH: usize = 100;
@@ -76,6 +76,7 @@ pub(super) struct Parser<'p> {
     tokens: Vec<(Token<'p>, Span)>,
     at: usize,
     depth: usize,
+    text: &'p str,
     place: &'p TextLocation,
     builder: Builder<'p>,
 }
@@ -85,7 +86,14 @@ pub(super) type Parsed<T> = Result<T, Diagnostic>;
 impl<'p> Parser<'p> {
     fn new(text: &'p LocatedText<'p>, scope: &'p Scope, found: &'p mut Vec<Diagnostic>) -> Parsed<Self> {
         let tokens = tokens(text)?;
-        Ok(Self { tokens, at: 0, depth: 0, place: &text.place, builder: Builder::new(scope, found) })
+        Ok(Self {
+            tokens,
+            at: 0,
+            depth: 0,
+            text: &text.text,
+            place: &text.place,
+            builder: Builder::new(scope, found),
+        })
     }
 
     /// Parses a sum that is a whole entry. The parser can then parse another one.
@@ -130,8 +138,20 @@ impl<'p> Parser<'p> {
                 Err(Diagnostic::new(self.here(), format!("the unit `{name}` must follow a number"))
                     .help("only numbers take a unit; names already have theirs"))
             }
+            Token::Sign(',') if let Some(number) = self.with_point() => Err(self
+                .unexpected("an operator or the end")
+                .help(format!("write a decimal point: `{number}`"))),
             _ => Err(self.unexpected("an operator or the end")),
         }
+    }
+
+    /// Returns the number around a comma, with a point.
+    fn with_point(&self) -> Option<String> {
+        let token = |at: usize| self.tokens.get(at).map(|token| token.0);
+        let before = self.at.checked_sub(1)?;
+        let are_numbers = [before, self.at + 1].iter().all(|at| matches!(token(*at), Some(Token::Number(_))));
+        let part = |at: usize| self.text.get(self.tokens[at].1.clone()).unwrap_or_default();
+        are_numbers.then(|| format!("{}.{}", part(before), part(self.at + 1)))
     }
 
     pub(crate) fn unexpected(&self, expected: &str) -> Diagnostic {
@@ -324,7 +344,7 @@ impl<'p> Parser<'p> {
                 (Token::Word(name), _) if Unit::named(name).is_some() => {
                     Unit::named(name).unwrap_or(Unit::NONE)
                 }
-                (_, span) => return Err(Diagnostic::new(span, "expected a unit").help(unit_help())),
+                (_, span) => return Err(Diagnostic::new(span, "expected a unit").help(unit_help(""))),
             }
         };
         let power = if self.accept('^') { self.unit_power()? } else { 1 };
@@ -346,17 +366,10 @@ impl<'p> Parser<'p> {
     }
 }
 
-fn unit_help() -> String {
-    format!("units: {}", super::UNIT_NAMES.join(" "))
-}
-
 fn unknown_unit(word: &str, span: Span) -> Diagnostic {
     let mistake =
         Diagnostic::new(span, format!("unknown unit `{}`", word.escape_debug())).label("not a unit");
-    mistake.help(match nearest(word, super::UNIT_NAMES) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => unit_help(),
-    })
+    mistake.help(unit_help(word))
 }
 
 /// Kind of an elementary motion.

@@ -3,6 +3,7 @@
 use abbe_core::LengthUnit;
 
 use super::Dimension;
+use crate::diagnostic::nearest;
 
 /// Largest magnitude that is accepted: its square is finite.
 pub const LARGEST: f64 = 1e150;
@@ -28,6 +29,52 @@ pub const UNIT_NAMES: [&str; 29] = [
     "m", "cm", "mm", "um", "nm", "inch", "rad", "mrad", "urad", "deg", "arcmin", "arcsec", "%", "ppm", "kg",
     "g", "t", "lb", "N", "kN", "mN", "Pa", "kPa", "MPa", "GPa", "K", "s", "min", "h",
 ];
+
+/// Spellings that are no units here, and what to write for them.
+const SPELLINGS: [(&[&str], &str); 20] = [
+    (&["Nm", "newtonmeter"], "N*m"),
+    (&["Nmm"], "N*mm"),
+    (&["kNm"], "kN*m"),
+    (&["micron", "microns", "micrometer", "micrometre"], "um"),
+    (&["in", "inches"], "inch"),
+    (&["mil", "mils", "thou"], "0.001 inch"),
+    (&["ft", "feet"], "12 inch"),
+    (&["millimeter", "millimeters", "millimetre"], "mm"),
+    (&["meter", "meters", "metre", "metres"], "m"),
+    (&["degree", "degrees"], "deg"),
+    (&["radian", "radians"], "rad"),
+    (&["arcminute", "arcminutes", "amin"], "arcmin"),
+    (&["arcsecond", "arcseconds", "asec", "as"], "arcsec"),
+    (&["gon", "grad"], "0.9 deg"),
+    (&["newton", "newtons"], "N"),
+    (&["kgf", "kp"], "9.80665 N"),
+    (&["lbf"], "4.4482216152605 N"),
+    (&["bar"], "100 kPa"),
+    (&["sec", "second", "seconds"], "s"),
+    (&["kilogram", "kilograms", "Kg", "KG"], "kg"),
+];
+
+/// Names of temperatures that are no differences.
+const CELSIUS: [&str; 4] = ["degC", "C", "celsius", "Celsius"];
+
+/// Returns what to write for a word that is no unit: nothing that has another size.
+pub(crate) fn unit_help(word: &str) -> String {
+    let spelled = SPELLINGS.iter().find(|(words, _)| words.contains(&word)).map(|(_, unit)| *unit);
+    let is_long = |name: &&str| name.len() > 2 && word.len() > 2;
+    let in_capitals = || UNIT_NAMES.into_iter().filter(is_long).find(|name| name.eq_ignore_ascii_case(word));
+    let near = || nearest(word, UNIT_NAMES.into_iter().filter(|name| name.len() > 3 && word.len() > 3));
+    match spelled {
+        Some(unit) if unit.contains(' ') => format!("1 {word} is `{unit}`"),
+        Some(unit) => format!("write `{unit}`"),
+        None if CELSIUS.contains(&word) => {
+            "temperatures are in `K`: a difference of 1 °C is `1 K`, and 20 °C are `293.15 K`".to_owned()
+        }
+        None => match in_capitals().or_else(near) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("units: {}", UNIT_NAMES.join(" ")),
+        },
+    }
+}
 
 impl Unit {
     /// The unit 1.

@@ -10,10 +10,11 @@ pub use abbe_exchange::{FORMATS, Format, FormatMismatch, Needs};
 
 use abbe_exchange::export::RealMachine;
 use abbe_spec::Diagnostics;
-use abbe_spec::option::{TO_LINUXCNC_GENHEXKINS, TO_URDF};
+use abbe_spec::option::{NODES, TO_LINUXCNC_GENHEXKINS, TO_URDF};
 
 use crate::finite;
 use crate::machine::Machine;
+use crate::mistake;
 use crate::notes::Notes;
 use crate::number::digits;
 
@@ -31,7 +32,8 @@ pub struct Export {
 }
 
 impl Export {
-    /// Writes the files as text, reads them back and compares the poses of the tool.
+    /// Writes the files as text, reads them back and compares the poses of the tool. Files that would
+    /// make its error larger are an error.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine: Machine { spec, origin, .. }, format, samples, seed } = self;
         if !matches!(format, Format::UrdfTree | Format::LinuxCncGenhexkins) {
@@ -49,12 +51,18 @@ impl Export {
         let Report { before, remains, .. } = &report;
         if remains.position.rms > before.position.rms && !machine.is_nominal() {
             let [before, remains] = [before, remains].map(|difference| digits(difference.position.rms, 3));
-            notes.warn(&format!(
-                "the exported file makes the error of the tool larger, {remains} {unit} instead \
-                 of {before} {unit} (rms): do not use it; increase the number of nodes, or narrow \
-                 the `limits` of the joints",
+            let message = format!(
+                "the file would make the error of the tool larger: {remains} {unit} (rms) instead of {before} {unit}",
                 unit = report.length
-            ));
+            );
+            let help = match format {
+                Format::Table { .. } => {
+                    format!("give the table more nodes by `{NODES}`, or narrow the `limits` of the joints")
+                }
+                _ => "correct commands by `abbe compensate`, or in the controller by code of `abbe generate`"
+                    .to_owned(),
+            };
+            return Err(mistake::with_help(origin, message, help));
         }
         finite(origin, report)
     }

@@ -43,18 +43,19 @@ impl Import {
 
     /// Writes the spec of a text; the spec names [`file`](Self::file) as its origin.
     pub fn read(&self, document: Document, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        let mut angles = AngleRounding::new(self.round_angles);
-        let chain = match &self.format {
+        let read = |angles: &mut AngleRounding, notes: &mut dyn Notes| match &self.format {
             Format::Urdf { base, tip, fold } => {
                 let ends = urdf::Ends { base: base.clone(), tip: tip.clone() };
-                urdf::read(&document, &ends, *fold, &mut angles, notes)
+                urdf::read(&document, &ends, *fold, angles, notes)
             }
-            Format::Table { convention, units } => {
-                dh::read(&document, *convention, *units, &mut angles, notes)
-            }
+            Format::Table { convention, units } => dh::read(&document, *convention, *units, angles, notes),
         };
+        let mut angles = AngleRounding::new(self.round_angles);
+        let chain = read(&mut angles, notes);
+        let as_meant = chain.as_ref().and_then(|_| read(&mut angles.as_meant()?, &mut ()));
         let chain = document.finish(chain)?;
-        angles.note(notes);
+        let shift = as_meant.map_or(0.0, |other| chain.largest_shift(&other));
+        angles.note(shift, notes);
         Report::new(&chain, &self.file.file_name().unwrap_or_default().to_string_lossy(), notes)
     }
 }

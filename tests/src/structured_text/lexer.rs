@@ -90,5 +90,9 @@ fn number(text: &str) -> Option<(Kind, usize)> {
         }
     }
     let ends = !text[end..].starts_with(|c: char| c.is_ascii_alphabetic());
-    (whole > 0 && fraction > 0 && ends).then(|| Some((Kind::Real(text[..end].parse().ok()?, false), end)))?
+    // Some compilers read every number as a REAL to see whether it is one.
+    let size = text[..end].parse::<f32>().ok().filter(|size| size.is_normal() || *size == 0.0)?;
+    let is_zero = text[..end].parse() == Ok(0.0);
+    let is_valid = whole > 0 && fraction > 0 && ends && (size != 0.0 || is_zero);
+    is_valid.then(|| Some((Kind::Real(text[..end].parse().ok()?, false), end)))?
 }

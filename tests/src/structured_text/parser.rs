@@ -1,5 +1,7 @@
 //! Units and declarations: names are declared once, whatever their case, and are no reserved words.
 
+use std::collections::HashMap;
+
 use super::lexer::{Kind, Token, tokens};
 use super::types::{Element, Section, Type, Unit, Variable};
 
@@ -21,9 +23,9 @@ impl Program {
     ///
     /// Returns the first mistake with its line.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let mut parser = Parser { tokens: tokens(text)?, at: 0, units: Vec::new() };
+        let mut parser = Parser { tokens: tokens(text)?, at: 0, units: Vec::new(), arrays: HashMap::new() };
         while parser.peek() != &Kind::End {
-            parser.unit()?;
+            if parser.take("TYPE") { parser.types()? } else { parser.unit()? }
         }
         Ok(Self { units: parser.units, replaced: Vec::new() })
     }
@@ -43,6 +45,8 @@ pub(super) struct Parser {
     tokens: Vec<Token>,
     at: usize,
     pub(super) units: Vec<Unit>,
+    /// Types of arrays, which all have names: to some compilers every other one is a type of its own.
+    arrays: HashMap<String, Type>,
 }
 
 /// Keywords, standard functions and blocks, and operators of the instruction list.
@@ -104,10 +108,38 @@ impl Parser {
         if RESERVED.split_whitespace().any(|word| word == name) {
             return self.fault(format!("{name} is reserved"));
         }
-        if self.units.iter().any(|unit| unit.name == name) {
-            return self.fault(format!("{name} is the name of a unit"));
+        if self.units.iter().any(|unit| unit.name == name) || self.arrays.contains_key(&name) {
+            return self.fault(format!("{name} is the name of a unit or a type"));
         }
         Ok(name)
+    }
+
+    fn types(&mut self) -> Result<(), String> {
+        while !self.take("END_TYPE") {
+            let name = self.name()?;
+            self.expect(":")?;
+            self.expect("ARRAY")?;
+            self.expect("[")?;
+            if self.next() != Kind::Whole(0) {
+                return self.fault("arrays begin at 0");
+            }
+            self.expect("..")?;
+            let Kind::Whole(last) = self.next() else { return self.fault("an array has a last index") };
+            self.expect("]")?;
+            self.expect("OF")?;
+            let count = usize::try_from(last).unwrap_or(0) + 1;
+            let array = match self.type_name()? {
+                Type::Dint => Type::Array(Element::Dint, count),
+                Type::Lreal => Type::Array(Element::Lreal, count),
+                _ => return self.fault("elements are DINT or LREAL"),
+            };
+            self.expect(";")?;
+            if self.arrays.values().any(|other| *other == array) {
+                return self.fault("two names of one type");
+            }
+            self.arrays.insert(name, array);
+        }
+        Ok(())
     }
 
     fn unit(&mut self) -> Result<(), String> {
@@ -186,21 +218,7 @@ impl Parser {
             "INT" => Type::Int,
             "DINT" => Type::Dint,
             "LREAL" => Type::Lreal,
-            "ARRAY" => {
-                self.expect("[")?;
-                if self.next() != Kind::Whole(0) {
-                    return self.fault("arrays begin at 0");
-                }
-                self.expect("..")?;
-                let Kind::Whole(last) = self.next() else { return self.fault("an array has a last index") };
-                self.expect("]")?;
-                self.expect("OF")?;
-                match self.type_name()? {
-                    Type::Dint => Type::Array(Element::Dint, usize::try_from(last).unwrap_or(0) + 1),
-                    Type::Lreal => Type::Array(Element::Lreal, usize::try_from(last).unwrap_or(0) + 1),
-                    _ => return self.fault("elements are DINT or LREAL"),
-                }
-            }
+            name if self.arrays.contains_key(name) => self.arrays[name],
             name => match self.units.iter().position(|unit| unit.name == name) {
                 Some(block) if self.units[block].result.is_none() => Type::Block(block),
                 _ => return self.fault(format!("{name} is no type")),

@@ -75,6 +75,9 @@ impl Parser {
             1
         };
         self.expect("DO")?;
+        if matches!((&first, &last), (Expression::Number(first), Expression::Number(last)) if first == last) {
+            return self.fault("some compilers skip a loop from a number to itself");
+        }
         let body = self.statements(unit)?;
         self.expect("END_FOR")?;
         Ok(Statement::For { counter, range: [first, last], by, body })

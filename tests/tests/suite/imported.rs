@@ -6,10 +6,12 @@ use std::fmt::Write;
 use abbe::Manipulator;
 use abbe::analysis::{Workspace, random_joint_samples, sampling};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
+use abbe_spec::{Document, Spec};
 use abbe_study::Machine;
 use abbe_study::import::{Format, Import, Report};
 use nalgebra::{Matrix4, Rotation3, Unit, Vector3};
+
+use super::imported_tables::Heard;
 
 struct Imported {
     report: Report,
@@ -186,8 +188,8 @@ fn joints_of_every_kind() {
 }
 
 /// Checks a chain from foot to hand: up a leg to the pelvis and down an arm. Its pose is the pose
-/// of the hand relative to the foot of the two chains from the root, and its masses are those of
-/// everything behind the first joint.
+/// of the hand relative to the foot of the two chains from the root. The foot turns against the
+/// root, so that gravity has no direction in it, and there are no loads.
 #[test]
 fn a_chain_goes_up_one_branch_and_down_another() {
     let mut urdf = String::from("<robot name=\"humanoid\">\n<link name=\"world\"/>\n");
@@ -226,7 +228,127 @@ fn a_chain_goes_up_one_branch_and_down_another() {
             let found = pose(&spec, &q);
             assert!((found - expected).abs().max() < 1e-12, "{found}, not {expected}");
         }
-        // Everything moves relative to the foot but the foot itself.
-        assert_eq!(report.spec.matches("[[load]]").count(), 4, "{}", report.spec);
+        assert!(!report.spec.contains("[[load]]") && !report.spec.contains("gravity"), "{}", report.spec);
     }
+}
+
+/// Imports a text, and returns the spec with all notes.
+fn with_notes(text: &str, base: Option<&str>, round_angles: bool) -> Result<(String, Vec<String>), String> {
+    let format = Format::Urdf { base: base.map(str::to_owned), tip: Some("tip".to_owned()), fold: false };
+    let mut heard = Heard::default();
+    let import = Import { file: "robot.urdf".into(), format, round_angles };
+    let report = import.read(Document::new("robot.urdf", text), &mut heard);
+    report.map(|report| (report.spec, heard.0)).map_err(|mistakes| mistakes.to_string())
+}
+
+/// A robot of two joints, with something in its second joint, and something behind its joints.
+fn robot(second: &str, behind: &str) -> String {
+    let turn = "<axis xyz=\"0 1 0\"/><limit lower=\"-2\" upper=\"2\"/>";
+    let links: String =
+        ["base", "arm", "tip", "side", "lamp"].map(|name| format!("<link name=\"{name}\"/>\n")).concat();
+    let joints = [
+        joint("a", "revolute", ["base", "arm"], "xyz=\"0 0 0.3\"", turn),
+        joint("b", "revolute", ["arm", "tip"], "xyz=\"0.4 0 0\"", &format!("{turn}{second}")),
+        joint("to_side", "fixed", ["arm", "side"], "xyz=\"0.1 0 0\"", ""),
+        joint("to_lamp", "fixed", ["arm", "lamp"], "xyz=\"0.2 0 0\"", ""),
+    ];
+    format!("<robot name=\"r\">\n{links}{}{behind}</robot>\n", joints.concat())
+}
+
+/// What stands beside the chain never keeps it from being read, and one note names it.
+#[test]
+fn faults_beside_the_chain_are_noted() {
+    let (expected, notes) = with_notes(&robot("", ""), None, false).unwrap();
+    assert_eq!(notes, Vec::<String>::new());
+    let limits = "<axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\"/>";
+    let branch = |kind: &str, rest: &str| {
+        format!("<link name=\"more\"/>{}", joint("branch", kind, ["lamp", "more"], "xyz=\"0 0 0\"", rest))
+    };
+    let faults = [
+        (branch("revolute", "<axis xyz=\"0 0 1\"/><limit lower=\"1\" upper=\"-1\"/>"), "reversed"),
+        (branch("revolute", "<axis xyz=\"0 0 0\"/><limit lower=\"-1\" upper=\"1\"/>"), "is zero"),
+        (branch("revolute", "<axis xyz=\"0 0 one\"/>"), "three finite numbers"),
+        (branch("revolute", "<limit lower=\"nan\" upper=\"1\"/>"), "finite number"),
+        (branch("hinge", limits), "unknown joint type"),
+        (branch("revolute", &format!("{limits}<mimic/>")), "has no `joint`"),
+        (branch("revolute", "<axis xyz=\"${x}\"/>"), "xacro"),
+        (joint("branch", "fixed", ["lamp", "nowhere"], "xyz=\"0 0 0\"", ""), "no link `nowhere`"),
+        ("<gazebo><vendor:lamp vendor:on=\"1\"/></gazebo>".to_owned(), "prefix `vendor`"),
+    ];
+    for (fault, part) in faults {
+        let (spec, notes) =
+            with_notes(&robot("", &fault), None, false).unwrap_or_else(|text| panic!("{text}"));
+        assert_eq!(spec, expected, "{fault}");
+        let about = notes.iter().filter(|note| note.contains(part)).count();
+        assert!(about == 1 && notes.iter().any(|note| note.starts_with("line ")), "{fault}: {notes:?}");
+    }
+    let lamp = robot("", "<xacro:lamp on=\"side\"/>")
+        .replace("<robot", "<robot xmlns:xacro=\"http://ros.org/xacro\"");
+    let (spec, notes) = with_notes(&lamp, None, false).unwrap();
+    assert!(spec == expected && notes[0].contains("the macro `lamp` was not expanded"), "{notes:?}");
+    let (spec, notes) = with_notes(&robot("<mimic joint=\"elsewhere\"/>", ""), None, false).unwrap();
+    assert!(spec == expected && notes[0].contains("which is no joint"), "{notes:?}");
+    let root = robot("", "").replace("<link name=\"base\"/>", "");
+    for base in [None, Some("base")] {
+        let (spec, notes) = with_notes(&root, base, false).unwrap();
+        assert!(spec == expected && notes[0].contains("`base` is not declared"), "{notes:?}");
+    }
+}
+
+/// The same faults on the chain are mistakes.
+#[test]
+fn faults_of_the_chain_are_mistakes() {
+    for (from, to, part) in [
+        ("upper=\"2\"", "upper=\"-3\"", "are reversed"),
+        ("xyz=\"0 1 0\"", "xyz=\"0 0 0\"", "is zero"),
+        ("xyz=\"0.4 0 0\"", "xyz=\"${reach} 0 0\"", "xacro file"),
+        (
+            "<link name=\"tip\"/>",
+            "<link name=\"tip\"><inertial><mass value=\"-1\"/></inertial></link>",
+            "is negative",
+        ),
+    ] {
+        let mistakes = with_notes(&robot("", "").replace(from, to), None, false).unwrap_err();
+        assert!(mistakes.contains(part), "{mistakes}");
+    }
+}
+
+/// Limits that are no limits count as none, and those that may be degrees are asked about.
+#[test]
+fn limits_beyond_two_turns_are_questioned() {
+    let of = |upper: &str| with_notes(&robot("", "").replace("upper=\"2\"", upper), None, false).unwrap();
+    for (upper, is_asked, has_limits) in [
+        ("6.28", false, true),
+        ("180", true, true),
+        ("360", true, true),
+        ("10", false, true),
+        ("20", true, true),
+        ("999999", false, false),
+    ] {
+        let (spec, notes) = of(&format!("upper=\"{upper}\""));
+        let asked = notes.iter().any(|note| note.contains(&format!("\"{upper} deg\"")));
+        assert_eq!(asked, is_asked, "{upper}: {notes:?}");
+        assert_eq!(!spec.contains("turns without end"), has_limits, "{spec}");
+        assert_eq!(notes.iter().any(|note| note.contains("count as none")), !has_limits, "{notes:?}");
+    }
+}
+
+/// Angles of few digits that are near a multiple of 45° are named with what exact ones would change.
+#[test]
+fn angles_of_few_digits_are_named() {
+    let tipped = |rpy: &str, round| {
+        let text = robot("", "").replace("xyz=\"0 0 0.3\"", &format!("xyz=\"0 0 0.3\" rpy=\"{rpy}\""));
+        with_notes(&text, None, round).unwrap().1
+    };
+    // The tip is 0.4 m behind the angle.
+    let notes = tipped("0 1.57 3.141", false);
+    assert!(notes[0].contains("2 angles are (1.57, 3.141 rad) by up to 0.8 mrad"), "{notes:?}");
+    assert!(
+        notes[0].contains("would move the tool by up to 0.3") || notes[0].contains("by up to 0.4"),
+        "{notes:?}"
+    );
+    assert!(tipped("0 1.57 3.141", true)[0].contains("too far to be rounded"));
+    // Calibrated ones have more digits.
+    assert_eq!(tipped("0 1.5700123456 0", false), Vec::<String>::new());
+    assert!(tipped("0 0 0", true)[0].contains("no angle was rounded"));
 }

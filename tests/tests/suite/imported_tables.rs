@@ -1,15 +1,18 @@
 //! DH tables as specs: the poses are those of the closed-form matrices in the literature.
 
+use std::f64::consts::FRAC_PI_2;
+
 use abbe::analysis::sampling;
 use abbe::{LengthUnit, Manipulator};
 use abbe_interpreter::Interpreter;
-use abbe_spec::{DhConvention, Spec};
+use abbe_spec::{DhConvention, Document, Spec};
 use abbe_study::Notes;
 use abbe_study::import::{Format, Import, Report, Units};
 use nalgebra::Matrix4;
 
+/// Notes of an import.
 #[derive(Default)]
-struct Heard(Vec<String>);
+pub(super) struct Heard(pub(super) Vec<String>);
 
 impl Notes for Heard {
     fn note(&mut self, note: &str) {
@@ -148,8 +151,9 @@ fn tables_of_other_countries() {
     let right = std::f64::consts::FRAC_PI_2;
     let rows = |q: &[f64]| vec![[q[0], 340.5, 0.0, -right], [q[1] + 12.5_f64.to_radians(), 0.0, 0.0, right]];
     assert_same(&imported, standard, rows, 1000.0);
+    // Each row names its variable.
     assert!(
-        imported.heard.iter().any(|note| note.contains("all joints were read as revolute")),
+        imported.heard.iter().all(|note| !note.contains("were read as revolute")),
         "{:?}",
         imported.heard
     );
@@ -382,4 +386,62 @@ fn damaged_tables() {
     }
     // Most damage shortens a row.
     assert!(read > 300 && refused > 300, "{read} read, {refused} refused");
+}
+
+/// A row of numbers among rows that name their variables moves nothing.
+#[test]
+fn rows_of_numbers_among_named_ones_are_fixed() {
+    let table = "name,theta,d,a,alpha\nfoot,0.2,0.3,0,pi\n1,q1,0,0.4,0\n2,q2 + pi,0,0.2,0\n";
+    let arm = imported(table, DhConvention::Standard, IN_M, false);
+    assert_eq!(
+        arm.spec.description().variables.iter().map(|one| &*one.name).collect::<Vec<_>>(),
+        ["q1", "q2"]
+    );
+    let pi = std::f64::consts::PI;
+    assert_same(
+        &arm,
+        standard,
+        |q| vec![[0.2, 0.3, 0.0, pi], [q[0], 0.0, 0.4, 0.0], [q[1] + pi, 0.0, 0.2, 0.0]],
+        1.0,
+    );
+    assert!(arm.heard[0].contains("`foot` is fixed"), "{:?}", arm.heard);
+    assert!(arm.heard.iter().all(|note| !note.contains("all joints were read")), "{:?}", arm.heard);
+    // Without any name, or with limits, all rows are joints.
+    for table in [
+        "theta,d,a,alpha\n0,0.3,0,pi\n0.1,0,0.4,0\n",
+        "theta,d,a,alpha,lower,upper\n0,0.3,0,pi,-1,1\nq2,0,0.4,0,-1,1\n",
+    ] {
+        assert_eq!(
+            imported(table, DhConvention::Standard, IN_M, false).spec.description().variables.len(),
+            2
+        );
+    }
+}
+
+/// A joint may turn with that of a row above, in either sign.
+#[test]
+fn rows_of_coupled_joints() {
+    let table =
+        "theta,d,a,alpha\n90 - q1,400,25,90\n\"-q1 + q2 - 90\",0,560,0\nq2 + q3,0,35,90\n0,d4 - 2e1,0,0\n";
+    for (convention, matrix) in
+        [(DhConvention::Standard, standard as Row), (DhConvention::Modified, modified)]
+    {
+        let arm = imported(table, convention, IN_MM, false);
+        let rows = |q: &[f64]| {
+            vec![
+                [FRAC_PI_2 - q[0], 400.0, 25.0, FRAC_PI_2],
+                [q[1] - q[0] - FRAC_PI_2, 0.0, 560.0, 0.0],
+                [q[1] + q[2], 0.0, 35.0, FRAC_PI_2],
+                [0.0, q[3] - 20.0, 0.0, 0.0],
+            ]
+        };
+        assert_same(&arm, matrix, rows, 1000.0);
+    }
+    let format = Format::Table { convention: DhConvention::Standard, units: IN_MM };
+    for (cell, part) in [("q2 - q3", "`q3` is no variable of a row above"), ("q1 q2", "expected a number")] {
+        let text = format!("theta,d,a,alpha\nq1,0,0,90\n{cell},0,560,0\n");
+        let import = Import { file: "t.csv".into(), format: format.clone(), round_angles: false };
+        let refused = import.read(Document::new("t.csv", text.as_str()), &mut ()).unwrap_err().to_string();
+        assert!(refused.contains(part), "{refused}");
+    }
 }

@@ -313,6 +313,9 @@ fn unreachable_poses_are_refused_with_the_reason_of_the_search() {
 #[derive(Clone, Copy, Debug)]
 enum Structure {
     Wrist,
+    /// The third joint turns back with the second, as behind the parallelogram of a large arm, and
+    /// the last two with those of the wrist before them.
+    Coupled,
     WristAtBase,
     Slide,
     Parallel,
@@ -331,7 +334,9 @@ fn random_robot(structure: Structure, seed: u64) -> String {
         let [x, y, z, a, b] = core::array::from_fn(|_| number());
         let quarters = match ((a * 2.0).round(), structure) {
             // Three parallel axes would not bring the wrist to all places around it.
-            (even, Structure::Wrist | Structure::WristAtBase) if even % 2.0 == 0.0 => 1.0,
+            (even, Structure::Wrist | Structure::Coupled | Structure::WristAtBase) if even % 2.0 == 0.0 => {
+                1.0
+            }
             (quarters, _) => quarters,
         };
         let angle = if is_regular { quarters * TAU / 4.0 } else { 3.0 * a };
@@ -342,11 +347,12 @@ fn random_robot(structure: Structure, seed: u64) -> String {
         let tilted = format!("Rx({:?}) Rz({b:?})", 0.5 + a.abs());
         let shifted = format!("Tx({:.3}) Ty({y:.3}) Tz({z:.3})", x + x.signum() * 0.2);
         let behind = match (structure, i) {
-            (Structure::Wrist | Structure::Slide, 3 | 4) | (Structure::WristAtBase, 0 | 1) => tilted,
+            (Structure::Wrist | Structure::Coupled | Structure::Slide, 3 | 4)
+            | (Structure::WristAtBase, 0 | 1) => tilted,
             (Structure::Slide, 0) if seed.is_multiple_of(2) => tilted,
             // Of the axes of the arm two are parallel, or two intersect.
-            (Structure::Wrist, 0) if seed.is_multiple_of(2) => tilted,
-            (Structure::Wrist, 1) if !seed.is_multiple_of(2) => shifted,
+            (Structure::Wrist | Structure::Coupled, 0) if seed.is_multiple_of(2) => tilted,
+            (Structure::Wrist | Structure::Coupled, 1) if !seed.is_multiple_of(2) => shifted,
             (Structure::WristAtBase, 4) if seed.is_multiple_of(2) => tilted,
             (Structure::WristAtBase, 3) if !seed.is_multiple_of(2) => shifted,
             (Structure::Parallel, 1 | 2) | (Structure::Slide, 0) => shifted,
@@ -363,11 +369,18 @@ fn random_robot(structure: Structure, seed: u64) -> String {
             Structure::Slide => i == 2,
             _ => false,
         };
+        let amount = match (structure, i) {
+            (Structure::Coupled, 2) => "q2 - q1".to_owned(),
+            (Structure::Coupled, 4) => "q4 + q3".to_owned(),
+            (Structure::Coupled, 5) => "-q5 + q4 - q3".to_owned(),
+            (Structure::Gantry, 2 | 3) => format!("q{i} + q{}", i - 2),
+            _ => format!("q{i}"),
+        };
         let (kind, motion) = if is_slide { ("prismatic", "Tz") } else { ("revolute", "Rz") };
         let _ = write!(
             text,
             "[[frame]]\nname = \"f{i}\"\nvariable = {{ name = \"q{i}\", kind = \"{kind}\", limits = [-3.2, 3.2] }}\n\
-             transform = \"{motion}(q{i}) {behind}\"\n"
+             transform = \"{motion}({amount}) {behind}\"\n"
         );
     }
     text
@@ -377,6 +390,7 @@ fn random_robot(structure: Structure, seed: u64) -> String {
 fn random_robots_have_all_their_solutions() {
     let structures = [
         Structure::Wrist,
+        Structure::Coupled,
         Structure::WristAtBase,
         Structure::Slide,
         Structure::Parallel,

@@ -6,7 +6,7 @@ use abbe_core::VariableKind;
 use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::{Factor, Spec};
 
-use crate::chain::lower_pairs;
+use crate::chain::lower_pairs::couplings;
 use crate::chain::symbol_jacobian::{Steps, twist};
 use crate::chain::walk::apply_with;
 use crate::graph::{Frame, Graph, Node, Vector};
@@ -38,6 +38,8 @@ pub(super) struct Lines {
     pub(super) lines: Vec<Line>,
     pub(super) tool: Frame,
     pub(super) probes: Probes,
+    /// Earlier joints that move the frame of each, with their shares.
+    pub(super) couplings: Vec<Vec<(usize, f64)>>,
 }
 
 /// Values of the parameters at which nodes are compared: the nominal ones, and others around them.
@@ -54,9 +56,12 @@ pub(super) struct Probes {
 impl Lines {
     /// Returns `None` if the frames of a chain are not all lower pairs.
     pub(super) fn new(g: &mut Graph, spec: &Spec) -> Option<Self> {
-        if !spec.is_serial() || !lower_pairs(spec).into_iter().all(|is_pair| is_pair) {
+        if !spec.is_serial() {
             return None;
         }
+        let couplings = couplings(spec).into_iter().collect::<Option<Vec<_>>>()?;
+        let joints = couplings.into_iter().zip(&spec.frames);
+        let couplings = joints.filter_map(|(others, frame)| frame.variable.map(|_| others)).collect();
         let mut probes = Probes::new(spec);
         let mut lines: Vec<Option<Line>> = vec![None; spec.variables.len()];
         let mut at = g.identity();
@@ -81,7 +86,7 @@ impl Lines {
         }
         let axes = tool.axes.map(|axis| axis.map(|part| probes.cleaned(g, part, 1.0)));
         let position = tool.position.map(|part| probes.cleaned(g, part, probes.size));
-        Some(Self { lines, tool: Frame { axes, position }, probes })
+        Some(Self { lines, tool: Frame { axes, position }, probes, couplings })
     }
 }
 
@@ -97,7 +102,7 @@ pub(super) fn line(g: &mut Graph, before: &Frame, factor: &Factor, own: usize, k
     let at = if kind == VariableKind::Revolute { g.add_vectors(place, offset) } else { before.position };
     let zero = g.zero();
     let nodes = [along, at].concat();
-    let nodes = g.substitute(&nodes, |given| (given == symbol).then_some(zero));
+    let nodes = g.substitute(&nodes, |given| matches!(given, Symbol::Variable(_)).then_some(zero));
     Line { kind, along: [nodes[0], nodes[1], nodes[2]], at: [nodes[3], nodes[4], nodes[5]] }
 }
 

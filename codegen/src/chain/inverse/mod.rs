@@ -7,6 +7,9 @@
 //! | three slides and three revolute joints, in any order | `gantry` |
 //! | a platform on legs, each with a drive of its own | `platform` |
 //!
+//! A joint may stand on the motor of an earlier one and turn, or slide, back with it (`q3 - q2`):
+//! the chain is solved for the sums, of which the joints are differences.
+//!
 //! Of the arm two consecutive axes intersect or are parallel; its third joint may be a slide. A
 //! chain that has one of the first two from the tool to the base is solved backwards. `lines` finds
 //! the axes, the product of exponentials at zero, from the expressions of the spec, and verifies
@@ -79,10 +82,17 @@ impl Inverse {
 }
 
 /// Returns the solutions of a chain of six joints.
-fn chain(g: &mut Graph, spec: &Spec, target: Frame, free: [Angle; 6]) -> Option<Vec<Partial>> {
+fn chain(g: &mut Graph, spec: &Spec, target: Frame, mut free: [Angle; 6]) -> Option<Vec<Partial>> {
     let lines = Lines::new(g, spec)?;
+    let joints = free;
+    for (sum, others) in free.iter_mut().zip(&lines.couplings) {
+        for (other, share) in others {
+            let turned = joints[*other].signed(g, *share);
+            *sum = sum.plus(g, turned);
+        }
+    }
     let motion = Motion { target, tool: lines.tool, is_reversed: false };
-    forwards(g, &lines, &motion, free).or_else(|| {
+    let found = forwards(g, &lines, &motion, free).or_else(|| {
         let back = Lines { lines: lines.lines.iter().rev().copied().collect(), ..lines.clone() };
         let motion = Motion { is_reversed: true, ..motion };
         let mut free = free.map(|angle| angle.signed(g, -1.0));
@@ -90,7 +100,29 @@ fn chain(g: &mut Graph, spec: &Spec, target: Frame, free: [Angle; 6]) -> Option<
         // Of the gantry all orders are forwards.
         let found = arms(g, &back, &motion, free)?;
         Some(found.into_iter().map(|partial| backwards(g, partial)).collect())
-    })
+    })?;
+    Some(found.into_iter().map(|partial| uncoupled(g, partial, &lines.couplings)).collect())
+}
+
+/// Takes from the sums of a solution the joints that their frames share with earlier ones.
+fn uncoupled(g: &mut Graph, mut partial: Partial, couplings: &[Vec<(usize, f64)>]) -> Partial {
+    for (joint, others) in couplings.iter().enumerate() {
+        for (other, share) in others {
+            let [sum, other] = [joint, *other].map(|i| partial.joints[i]);
+            partial.joints[joint] = match (sum, other) {
+                (Joint::Turn(sum), Joint::Turn(other)) => {
+                    let back = other.angle.signed(g, -share);
+                    Joint::Turn(Root { angle: sum.angle.plus(g, back), ..sum })
+                }
+                (Joint::Slide(sum), Joint::Slide(other)) => {
+                    let shared = if *share > 0.0 { other } else { g.neg(other) };
+                    Joint::Slide(g.sub(sum, shared))
+                }
+                (other, _) => other,
+            };
+        }
+    }
+    partial
 }
 
 fn forwards(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle; 6]) -> Option<Vec<Partial>> {

@@ -2,32 +2,28 @@
 
 use abbe_core::compensator::{CHANGE, Cycle, LARGEST, Status, begin, bound, compensate, norms};
 use abbe_core::function::{COMPENSATED, Signature};
-use abbe_core::{Description, Error, Function, Pose};
+use abbe_core::{Description, Error, Function, Pose, Variable};
 
 use super::expected::{Computed, Given};
 use super::real::Real;
 use crate::chain::Model;
 
-/// Shares of the bounds by default that the correction before, the bound of the change and that of
-/// the correction have, the weight of the third rotation, and how far the first joint with a limit
-/// is beyond it, in spans of its range.
-const CASES: [[f64; 5]; 5] = [
-    // Nothing holds the correction.
-    [0.0, 1e3, 1e3, 1.0, 0.0],
-    // The change of the first cycle does.
-    [0.0, 0.25, 1.0, 1.0, 0.0],
-    [0.0, 1.0, 1.0, 1.0, 1e-3],
-    // One rotation is free.
-    [0.0, 1e3, 1e3, 0.0, 0.0],
-    // The change holds it at one end and its size at the other. In single precision the joints that
-    // are held depend on rounding errors.
-    [-1.0, 0.5, 0.03, 1.0, 0.0],
-];
+/// Number of calls at the configuration of the self-test, which differ in their bounds only.
+const AT_ONE: usize = 8;
+
+/// Largest number of joints that are tried beyond each of their limits.
+const JOINTS: usize = 8;
+
+/// Shares of the change by default, then of the largest correction.
+pub(super) const SCALES: [f64; 8] = [1e3, 0.25, 1.0, 0.5, 1e3, 1.0, 0.03, 1e3];
+
+/// Share of the range by which a command is beyond a limit.
+const BEYOND: f64 = 1e-3;
 
 /// A call with the sums of its results, each weighted 1 to 7 cyclically, and with their tolerances.
 pub(super) struct Call {
-    /// Shares as in [`CASES`], with the first joint that has a limit in its own unit.
-    pub(super) shares: [f64; 5],
+    /// Number of its arguments, see [`Commands::arguments`].
+    pub(super) number: usize,
     pub(super) sums: Vec<[f64; 2]>,
     pub(super) status: Status,
 }
@@ -47,25 +43,62 @@ impl<'m> Commands<'m> {
         Self { description, given, functions: functions.map(|one| Computed::new(one, model)), real }
     }
 
-    /// Returns the calls whose results rounding errors do not change by more than the tolerance.
-    pub(super) fn calls(&self, signature: &Signature) -> Vec<Call> {
-        let count = if signature.name == COMPENSATED.name { [5, 4][self.real as usize] } else { 1 };
-        CASES[..count].iter().filter_map(|shares| self.call(signature, *shares)).collect()
+    /// Returns the numbers of the calls: those at one configuration, one anywhere for each joint, and
+    /// those with each joint below its lower and above its upper limit.
+    pub(super) fn ends(&self) -> [usize; 4] {
+        let joints = self.description.variables.len().min(JOINTS);
+        [AT_ONE, AT_ONE + joints, AT_ONE + 2 * joints, AT_ONE + 3 * joints]
     }
 
-    fn call(&self, signature: &Signature, mut shares: [f64; 5]) -> Option<Call> {
-        let mut command = self.given[0].1.clone();
-        if shares[4] > 0.0 {
-            let (at, [lower, upper]) = self.limited()?;
-            shares[4] = self.real.nearest(upper - command[at] + shares[4] * (upper - lower));
-            command[at] += shares[4];
+    /// Returns the calls whose results rounding errors do not change by more than the tolerance.
+    pub(super) fn calls(&self, signature: &Signature) -> Vec<Call> {
+        (0..self.ends()[3]).filter_map(|number| self.call(signature, number)).collect()
+    }
+
+    /// Returns the command and the bounds of call `k`, as the self-test computes them.
+    fn arguments(&self, k: usize) -> (Vec<f64>, Cycle<Vec<f64>>) {
+        let [same, anywhere, below, above] = self.ends();
+        let nearest = |value| self.real.nearest(value);
+        let each = |of: &dyn Fn(usize, &Variable) -> f64| -> Vec<f64> {
+            self.description.variables.iter().enumerate().map(|(j, one)| nearest(of(j, one))).collect()
+        };
+        let command = each(&|j, one| {
+            let [lower, upper] = one.limits.map(nearest);
+            let span = nearest(upper - lower);
+            let share = match () {
+                () if k < anywhere || (k - same) % (anywhere - same) != j => {
+                    ((7 * k + 3 * j) % 13) as f64 / 12.0
+                }
+                () if k < below => -BEYOND,
+                () => 1.0 + BEYOND,
+            };
+            let is_there = k < same || above <= same || !span.is_finite();
+            if is_there { self.given[0].1[j] } else { lower + nearest(nearest(share) * span) }
+        });
+        let bounds =
+            |share: f64, bounds| each(&|_, one| share * nearest(bound(self.description, one.kind, bounds)));
+        let last = each(&|j, one| {
+            let share = (((5 * k + 4 * j) % 9) as f64 - 4.0) * 0.25 * (k % 2) as f64;
+            share * nearest(bound(self.description, one.kind, CHANGE))
+        });
+        let [change, largest] = [(SCALES[k % 4], CHANGE), (SCALES[4 + k / 2 % 4], LARGEST)];
+        let rotations = std::array::from_fn(|i| if (k + i) % 4 == 3 { 0.0 } else { 1.0 });
+        let [change, largest] = [change, largest].map(|(share, of)| bounds(nearest(share), of));
+        (command, Cycle { last, change, largest, rotations })
+    }
+
+    fn call(&self, signature: &Signature, number: usize) -> Option<Call> {
+        let (command, cycle) = self.arguments(number);
+        // In single precision, the joints that the size of a correction holds depend on rounding.
+        if self.real == Real::Float && SCALES[4 + number / 2 % 4] < 1.0 {
+            return None;
         }
+        let [least, most] = [-1.0, 1.0].map(|sign| self.results(signature, &command, &cycle, sign));
+        let ((numbers, status), (others, other)) = (least?, most?);
         // Numbers of a ten-thousandth of the largest correction: rounding errors and the tolerances
         // of single precision are smaller, what a wrong step leaves is larger.
         // Beyond a limit the iterations do not end: only the status counts, and the size.
-        let share = [1e-7, 1e-3, 1.0][if shares[4] > 0.0 { 2 } else { self.real as usize }];
-        let [least, most] = [-1.0, 1.0].map(|sign| self.results(signature, &command, shares, sign));
-        let ((numbers, status), (others, other)) = (least?, most?);
+        let share = [1e-7, 1e-3, 1.0][if status == Status::OutsideLimits { 2 } else { self.real as usize }];
         let mut sums = Vec::new();
         for (array, (numbers, others)) in signature.results.iter().zip(numbers.iter().zip(&others)) {
             let is_pose = array.len(self.description) == 6 && matches!(array.name, "before" | "after");
@@ -85,13 +118,7 @@ impl<'m> Commands<'m> {
                 return None;
             }
         }
-        (status == other).then_some(Call { shares, sums, status })
-    }
-
-    /// Returns the first joint with a limit.
-    pub(super) fn limited(&self) -> Option<(usize, [f64; 2])> {
-        let limits = self.description.variables.iter().map(|variable| variable.limits).enumerate();
-        limits.into_iter().find(|(_, [lower, upper])| (upper - lower).is_finite())
+        (status == other).then_some(Call { number, sums, status })
     }
 
     /// Returns the results and the status, with the largest rounding errors, of a sign, in the
@@ -101,7 +128,7 @@ impl<'m> Commands<'m> {
         &self,
         signature: &Signature,
         q: &Vec<f64>,
-        shares: [f64; 5],
+        cycle: &Cycle<Vec<f64>>,
         sign: f64,
     ) -> Option<(Vec<Vec<f64>>, Status)> {
         let evaluate = |function: usize, q: &Vec<f64>| -> Result<Vec<f64>, Error> {
@@ -117,17 +144,9 @@ impl<'m> Commands<'m> {
         let pose =
             |numbers: &[f64]| Pose(std::array::from_fn(|i| std::array::from_fn(|j| numbers[3 * i + j])));
         let columns = || vec![[0.0; 6]; q.len()];
-        let [last, change, largest] = [(shares[0], CHANGE), (shares[1], CHANGE), (shares[2], LARGEST)].map(
-            |(share, bounds)| -> Vec<f64> {
-                let variables = self.description.variables.iter();
-                variables.map(|one| share * bound(self.description, one.kind, bounds)).collect()
-            },
-        );
-        let rotations = [1.0, 1.0, shares[3]];
         let (results, status, after) = if signature.name == COMPENSATED.name {
             let target = pose(&evaluate(0, q).ok()?);
-            let cycle = Cycle { last, change, largest, rotations };
-            let done = compensate(self.description, &target, q, &cycle, columns(), |q, columns| {
+            let done = compensate(self.description, &target, q, cycle, columns(), |q, columns| {
                 let step = evaluate(1, q)?;
                 columns.as_flattened_mut().copy_from_slice(&step[12..]);
                 Ok(pose(&step))
@@ -137,7 +156,7 @@ impl<'m> Commands<'m> {
             (results, done.status, done.after)
         } else {
             let target = pose(&evaluate(2, q).ok()?);
-            let begun = begin(self.description, &target, q, rotations, columns(), |q, columns| {
+            let begun = begin(self.description, &target, q, cycle.rotations, columns(), |q, columns| {
                 columns.as_flattened_mut().copy_from_slice(&evaluate(1, q)?[12..]);
                 Ok(pose(&evaluate(0, q)?))
             });

@@ -27,6 +27,8 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
             let margin = ["margin", "`cos ρ`; where it is 0, rows 4–6 are not finite."];
             let behind = signature.has_margin(routines.description.orientation).then_some(margin);
             documentation(writer, &routines.description, signature, behind);
+            writer.documentation_line("");
+            writer.documentation(THROWS);
         }
         None => writer.documentation(routine.documentation),
     }
@@ -35,6 +37,15 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     let arguments: Vec<&str> = given.map(|array| array.name).collect();
     let export = if routines.exports(routine) { "export " } else { "" };
     writer.open(&format!("{export}function {}({})", routine.name, arguments.join(", ")));
+    if !export.is_empty() {
+        let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
+        for (name, count) in given.map(|array| (array.name, array.len(&routines.description))) {
+            writer.lines(&match name {
+                "u" => "are_inputs(u);".to_owned(),
+                name => format!("given('{name}', {name}, {count});"),
+            });
+        }
+    }
     let mut printer = JavaScriptPrinter { writer, routines };
     let margin = statements(&mut printer, flat, &list);
     let result = |index: usize| match flat.len(index) {
@@ -63,12 +74,19 @@ pub(super) fn documentation(
         format!("{} Size: {shape}. Unit: {}.", array.documentation, array.unit)
     };
     for array in signature.arguments {
-        writer.documentation(&format!("@param {{Float64Array}} {} {}", array.name, numbers(array)));
+        let name = match array.name {
+            name @ ("last" | "change" | "largest" | "rotations") => format!("[{name}]"),
+            name => name.to_owned(),
+        };
+        writer.documentation(&format!("@param {{Float64Array}} {name} {}", numbers(array)));
     }
     match (signature.results, behind) {
         ([array], None) => writer.documentation(&format!("@returns {{Float64Array}} {}", numbers(array))),
         (several, behind) => {
-            writer.documentation("@returns {object} Object with the properties:");
+            let arrays = several.iter().map(|array| format!("{}: Float64Array", array.name));
+            let number = behind.map(|[name, _]| format!("{name}: number"));
+            let of_type = arrays.chain(number).collect::<Vec<_>>().join(", ");
+            writer.documentation(&format!("@returns {{{{ {of_type} }}}} Object with the properties:"));
             for array in several {
                 writer.documentation(&format!("- `{}`: {}", array.name, numbers(array)));
             }
@@ -84,8 +102,6 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     if commands.is_empty() {
         return;
     }
-    writer.blank();
-    writer.paragraphs(HELPERS);
     let mut printer = JavaScriptPrinter { writer, routines };
     helpers.into_iter().for_each(|one| printer.helper(&one.clone().with_loops(), one.name, None));
     let statuses = Precision::Double.statuses();
@@ -96,11 +112,17 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
         writer.lines("/**");
         documentation(writer, &routines.description, signature, Some(["status", &statuses]));
         writer.documentation_line("");
-        writer.documentation(&format!("{}{THROWS}", if is_begin { "" } else { WITHOUT_LAST }));
+        writer.documentation(&format!("{}{WHOLE}{THROWS}", if is_begin { "" } else { WITHOUT_LAST }));
         writer.lines(" */");
         let further = if is_begin { "" } else { ", last, change, largest" };
-        writer.open(&format!("export function {}(q, s, u{further}, rotations = [1, 1, 1])", signature.name));
-        writer.lines("are_given(q, s, u);\ngiven('rotations', rotations, 3);");
+        writer.open(&format!(
+            "export function {}(q, s, u{further}, rotations = Float64Array.of(1, 1, 1))",
+            signature.name
+        ));
+        let Description { variables, parameters, .. } = &routines.description;
+        let counts = [("q", variables.len()), ("s", parameters.len()), ("rotations", 3)];
+        counts.iter().for_each(|(name, len)| writer.lines(&format!("given('{name}', {name}, {len});")));
+        writer.lines("are_inputs(u);");
         if !is_begin {
             writer.lines(CHECKS);
         }
@@ -112,14 +134,16 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     }
 }
 
-const HELPERS: &str = include_str!("given.js");
+/// Checks of arguments.
+pub(super) const HELPERS: &str = include_str!("given.js");
 
 /// Arguments that may be left out.
 const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have any size. With it, `change` and `largest` are \
      those of `description.variables` if they are left out. ";
 
-const THROWS: &str = "Without `rotations`, the whole pose is reached. Throws a RangeError if an argument has another length, \
-     a number is not finite or an input is outside its range.";
+const WHOLE: &str = "Without `rotations`, the whole pose is reached. ";
+
+const THROWS: &str = "Throws a RangeError if an argument has another length, a number is not finite or an input is outside its range.";
 
 /// Completes and checks what only corrected commands take.
 const CHECKS: &str = include_str!("checks.js");

@@ -44,6 +44,8 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     if routines.has_commands() || routines.used_lookup_tables().next().is_some() {
         JavaScriptPrinter { writer: &mut writer, routines }.helper(&clamped(), "clamped", None);
     }
+    writer.blank();
+    writer.paragraphs(functions::HELPERS);
     for routine in &routines.list {
         function(&mut writer, spec, routines, routine);
     }

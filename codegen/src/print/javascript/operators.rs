@@ -16,8 +16,8 @@ impl Syntax for JavaScript<'_> {
     /// Keywords of the language and names that the functions use.
     fn reserved(&self) -> Cow<'static, str> {
         Cow::Borrowed(
-            "Float64Array Infinity Math NaN arguments async await break case catch class const continue \
-         debugger default delete do else enum eval export extends false finally for function get i if \
+            "Float64Array Infinity Math NaN are_inputs arguments async await break case catch class const continue \
+         debugger default delete do else enum eval export extends false finally for function get given i if \
          implements import in instanceof interface k let margin new null of package private protected \
          public return set static super switch this throw true try typeof undefined var void while \
          with yield",

@@ -19,6 +19,9 @@ use crate::print::routine::statements;
 use crate::print::statements::Statements;
 use crate::program::{Role, Routine, Routines, Row, Stage};
 
+/// Largest sum of the sizes of results, of numbers that are a REAL as well.
+const LARGEST: &str = "LREAL#1.0E37 * LREAL#1.0E37";
+
 /// Prints one function block.
 pub(super) fn block(
     writer: &mut Writer,
@@ -82,7 +85,9 @@ impl Block<'_> {
         for array in arrays {
             let description = &self.flat.routines.description;
             match self.described(array) {
-                Some(described) => argument(self.printer.writer, self.spec, description, described),
+                Some(described) => {
+                    argument(self.printer.writer, self.printer.prefix, self.spec, description, described);
+                }
                 None => self.local_array(array),
             }
         }
@@ -107,7 +112,8 @@ impl Block<'_> {
 
     fn local_array(&mut self, array: usize) {
         let (name, count) = (self.name(array), self.flat.len(array));
-        self.printer.writer.lines(&format!("{name} : {};", array_type(count, "LREAL")));
+        let of_type = array_type(self.printer.writer, self.printer.prefix, count, "LREAL");
+        self.printer.writer.lines(&format!("{name} : {of_type};"));
     }
 
     /// Prints the variables of the body: instances of other blocks, local arrays and numbers.
@@ -162,11 +168,12 @@ impl Block<'_> {
         if !inputs && tables.is_empty() && sums.is_empty() {
             return;
         }
+        let prefix = self.printer.prefix;
         section(self.printer.writer, "VAR CONSTANT", |writer| {
             if inputs {
                 let ends = |end: usize| self.spec.inputs.iter().map(|one| one.range[end]).collect::<Vec<_>>();
-                numbers(writer, "lower_ranges", &ends(0));
-                numbers(writer, "upper_ranges", &ends(1));
+                numbers(writer, prefix, "lower_ranges", &ends(0));
+                numbers(writer, prefix, "upper_ranges", &ends(1));
             }
             let Routines { tables: all, sums: all_sums, .. } = self.flat.routines;
             let (tables, sums) =
@@ -174,7 +181,7 @@ impl Block<'_> {
             for list in lists(tables, sums) {
                 comment(writer, list.documentation);
                 let element = if list.is_whole { "DINT" } else { "LREAL" };
-                array(writer, &list.name, element, &list.entries(initial));
+                array(writer, prefix, &list.name, element, &list.entries(initial));
             }
         });
     }
@@ -201,7 +208,7 @@ impl Block<'_> {
         let arrays = self.arrays(Role::Argument);
         let arrays: Vec<usize> = arrays.into_iter().filter(|array| self.name(*array) != "inputs").collect();
         if !arrays.is_empty() {
-            let is_huge = self.exceeds(&arrays, "1.0E30");
+            let is_huge = self.exceeds(&arrays, "LREAL#1.0E30");
             self.printer.leave(&is_huge, "1");
         }
     }
@@ -220,7 +227,7 @@ impl Block<'_> {
             let (name, count) = (self.name(*array), self.flat.len(*array));
             self.each(count, "total", &format!("total + ABS({name}[k])"));
         }
-        format!("NOT {}_is_within(total, LREAL#0.0, LREAL#{limit})", self.printer.prefix)
+        format!("NOT {}_is_within(total, LREAL#0.0, {limit})", self.printer.prefix)
     }
 
     /// Prints the checks of the results and the status.
@@ -234,7 +241,7 @@ impl Block<'_> {
             }
             let results = self.arrays(Role::Result);
             if !results.is_empty() {
-                let is_huge = self.exceeds(&results, "1.0E300");
+                let is_huge = self.exceeds(&results, LARGEST);
                 self.printer.assign("fault", &format!("fault OR {is_huge}"), None);
             }
         }

@@ -33,21 +33,25 @@ pub(super) fn comment(writer: &mut Writer, text: &str) {
     writer.lines(" *)");
 }
 
-/// Returns the type of an array.
-pub(super) fn array_type(count: usize, element: &str) -> String {
-    format!("ARRAY[0..{}] OF {element}", count - 1)
+/// Returns the name of the type of an array, which the file declares: to some compilers every type
+/// without a name is another one.
+pub(super) fn array_type(writer: &mut Writer, prefix: &str, count: usize, element: &str) -> String {
+    let kind = if element == "LREAL" { "array" } else { "counts" };
+    let name = format!("{prefix}_{kind}_{count}");
+    writer.arrays.insert(name.clone(), format!("ARRAY[0..{}] OF {element}", count - 1));
+    name
 }
 
 /// Prints `name : type := [first, second, …];`.
-pub(super) fn array(writer: &mut Writer, name: &str, element: &str, values: &[String]) {
-    let head = format!("{name} : {} := ", array_type(values.len(), element));
+pub(super) fn array(writer: &mut Writer, prefix: &str, name: &str, element: &str, values: &[String]) {
+    let head = format!("{name} : {} := ", array_type(writer, prefix, values.len(), element));
     filled(writer, &format!("{head}["), values, "];");
 }
 
 /// Prints an array of numbers with initial values.
-pub(super) fn numbers(writer: &mut Writer, name: &str, values: &[f64]) {
+pub(super) fn numbers(writer: &mut Writer, prefix: &str, name: &str, values: &[f64]) {
     let values: Vec<String> = values.iter().map(|value| initial(*value)).collect();
-    array(writer, name, "LREAL", &values);
+    array(writer, prefix, name, "LREAL", &values);
 }
 
 /// Prints variables of one type, as many as fit on a line.
@@ -93,7 +97,13 @@ pub(super) fn array_name(name: &'static str) -> &'static str {
 }
 
 /// Prints an argument, with the nominal values of parameters and inputs as initial ones.
-pub(super) fn argument(writer: &mut Writer, spec: &Spec, description: &Description, array: &Array) {
+pub(super) fn argument(
+    writer: &mut Writer,
+    prefix: &str,
+    spec: &Spec,
+    description: &Description,
+    array: &Array,
+) {
     let count = array.len(description);
     if count == 0 {
         return;
@@ -107,8 +117,11 @@ pub(super) fn argument(writer: &mut Writer, spec: &Spec, description: &Descripti
     };
     let name = array_name(array.name);
     match nominal {
-        Some(values) => numbers(writer, name, &values),
-        None => writer.lines(&format!("{name} : {};", array_type(count, "LREAL"))),
+        Some(values) => numbers(writer, prefix, name, &values),
+        None => {
+            let array = array_type(writer, prefix, count, "LREAL");
+            writer.lines(&format!("{name} : {array};"));
+        }
     }
 }
 

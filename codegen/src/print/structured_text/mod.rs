@@ -3,7 +3,8 @@
 //! `blocks` prints routines as function blocks, `procedures` statements, lookup tables and the
 //! corrected commands, `operators` expressions, `support` the sine and other functions,
 //! `declarations` variables. Everything is in the common part of the editions of the standard and
-//! of the dialects: no methods, pointers, references or types of its own.
+//! of the dialects: no methods, pointers or references. Arrays have types with names, and numbers
+//! are within the range of REAL: MATIEC needs both.
 //!
 //! Invalid operations stop many controllers, so that nothing computes with NaN: a function that
 //! has no value sets `fault`, which becomes a status.
@@ -31,9 +32,9 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
     let syntax = StructuredText::new(spec, routines);
     let mut writer = Writer::new(" *");
     writer.lines("(*");
-    let mut head = Writer::new(" *");
-    header(&mut head, spec, routines);
-    writer.lines(&harmless(&head.finish()));
+    let mut documentation = Writer::new(" *");
+    header(&mut documentation, spec, routines);
+    writer.lines(&harmless(&documentation.finish()));
     writer.documentation_line("");
     for paragraph in USE {
         writer.documentation(paragraph);
@@ -52,6 +53,8 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
         Precision::Double.statuses()
     ));
     writer.lines(" *)");
+    let head = writer.finish();
+    let mut writer = Writer::new(" *");
     let has_commands = routines.has_commands();
     for support in Support::used(spec, routines, has_commands) {
         writer.blank();
@@ -76,7 +79,12 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
     if has_commands {
         procedures::blocks(&mut writer, spec, routines, &syntax.prefix);
     }
-    SourceFile { name: format!("{}.st", spec.name), text: writer.finish() }
+    let mut types = Writer::new(" *");
+    types.blank();
+    types.begin("TYPE");
+    writer.arrays.iter().for_each(|(name, array)| types.lines(&format!("{name} : {array};")));
+    types.close("END_TYPE");
+    SourceFile { name: format!("{}.st", spec.name), text: head + &types.finish() + &writer.finish() }
 }
 
 /// Properties of the file that its user must know.

@@ -143,8 +143,9 @@ pub(super) fn number(value: f64) -> String {
     format!("{sign}LREAL#{}", initial(value.abs()))
 }
 
-/// Largest number that stands for infinity.
-const INFINITE: f64 = 1e300;
+/// Largest number, which stands for infinity: some compilers read each as a REAL before they take
+/// it for an LREAL.
+const INFINITE: f64 = 1e37;
 
 /// Returns the shortest literal of an initial value, with a point and a capital exponent.
 pub(super) fn initial(value: f64) -> String {

@@ -36,7 +36,7 @@ pub(super) fn scalar(
     writer.lines(&format!("FUNCTION {name} : LREAL"));
     // Callers give the arguments in this order.
     section(writer, "VAR_INPUT", |writer| {
-        procedure.arguments.iter().for_each(|argument| declare(writer, &[*argument]));
+        procedure.arguments.iter().for_each(|argument| declare(writer, prefix, &[*argument]));
     });
     if guard.is_some() {
         section(writer, "VAR_IN_OUT", |writer| writer.lines("fault : BOOL;"));
@@ -51,37 +51,40 @@ pub(super) fn scalar(
 pub(super) fn declarations(writer: &mut Writer, procedure: &Procedure, prefix: &str, more: &[Variable]) {
     if !procedure.constants.is_empty() {
         section(writer, "VAR CONSTANT", |writer| {
-            procedure.constants.iter().for_each(|(name, values)| numbers(writer, name, values));
+            procedure.constants.iter().for_each(|(name, values)| numbers(writer, prefix, name, values));
         });
     }
     section(writer, "VAR", |writer| {
         for called in procedure.called() {
             writer.lines(&format!("{} : {prefix}_{called};", instance(called)));
         }
-        declare(writer, more);
-        declare(writer, &procedure.locals);
+        declare(writer, prefix, more);
+        declare(writer, prefix, &procedure.locals);
         let counters: Vec<String> = procedure.counters().into_iter().map(str::to_owned).collect();
         variables(writer, &counters, "DINT");
     });
 }
 
 /// Prints declarations of variables, those of one type together.
-fn declare(writer: &mut Writer, list: &[Variable]) {
+fn declare(writer: &mut Writer, prefix: &str, list: &[Variable]) {
     let mut lens: Vec<usize> = Vec::new();
     for (_, len) in arrays(list) {
         if !lens.contains(&len) {
             lens.push(len);
         }
     }
-    let mut one = |kind, of_type: &str| {
+    let one = |writer: &mut Writer, kind, of_type: &str| {
         let names =
             list.iter().filter(|variable| variable.kind == kind).map(|variable| variable.name.to_owned());
         variables(writer, &names.collect::<Vec<_>>(), of_type);
     };
-    lens.into_iter().for_each(|len| one(Kind::Array(len), &array_type(len, "LREAL")));
+    for len in lens {
+        let of_type = array_type(writer, prefix, len, "LREAL");
+        one(writer, Kind::Array(len), &of_type);
+    }
     [(Kind::Real, "LREAL"), (Kind::Flag, "BOOL"), (Kind::Whole, "DINT")]
         .into_iter()
-        .for_each(|(kind, of_type)| one(kind, of_type));
+        .for_each(|(kind, of_type)| one(writer, kind, of_type));
 }
 
 /// Prints the call of an instance, on several lines if it is long.
@@ -146,8 +149,9 @@ impl Printer for BlockPrinter<'_> {
         self.writer.blank();
         comment(self.writer, &procedure.documentation);
         self.writer.lines(&format!("FUNCTION_BLOCK {}_{name}", self.prefix));
-        section(self.writer, "VAR_INPUT", |writer| declare(writer, &procedure.arguments));
-        section(self.writer, "VAR_OUTPUT", |writer| declare(writer, &procedure.results));
+        let prefix = self.prefix;
+        section(self.writer, "VAR_INPUT", |writer| declare(writer, prefix, &procedure.arguments));
+        section(self.writer, "VAR_OUTPUT", |writer| declare(writer, prefix, &procedure.results));
     }
 
     fn declarations(&mut self, procedure: &Procedure, _: Option<&str>) {
@@ -187,6 +191,27 @@ impl Printer for BlockPrinter<'_> {
             let call = format!("{}_cosine_and_sine({}, {sine})", self.prefix, angle.text);
             self.assign(cosine, &call, None);
         }
+    }
+
+    /// Some compilers skip a loop from a number to itself.
+    fn repeat(
+        &mut self,
+        counter: &str,
+        range: &[Index; 2],
+        is_descending: bool,
+        body: impl FnOnce(&mut Self),
+    ) {
+        let ends = range.each_ref().map(Index::number);
+        if let [Some(first), Some(behind)] = ends
+            && behind == first + 1
+        {
+            self.assign(counter, &first.to_string(), None);
+            return body(self);
+        }
+        let head = self.loop_head(counter, range, is_descending);
+        self.writer.begin(&head);
+        body(self);
+        self.writer.close(Self::LOOP_END);
     }
 
     /// Local arrays are declared above the statements.
@@ -248,14 +273,14 @@ pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, pref
         writer.blank();
         comment(writer, signature.documentation);
         writer.lines(&format!("FUNCTION_BLOCK {prefix}_{}", signature.name));
-        interface(writer, spec, &routines.description, signature);
+        interface(writer, prefix, spec, &routines.description, signature);
         let kept = Variable { name: "last", kind: Kind::Array(spec.variables.len()) };
         let sum = Variable { name: "sum", kind: Kind::Real };
         let more = [kept, sum];
         declarations(writer, &procedure, prefix, if is_cycle { &more } else { &more[1..] });
-        let last = (spec.variables.len() - 1).to_string();
+        let count = spec.variables.len().to_string();
         for text in [RESUME, ROTATIONS].into_iter().filter(|text| is_cycle || *text == ROTATIONS) {
-            writer.lines(text.replace("LAST", &last).replace("PREFIX", prefix).trim_end());
+            writer.lines(text.replace("COUNT", &count).replace("PREFIX", prefix).trim_end());
         }
         printer.statements(&procedure.body);
         if is_cycle {
@@ -272,7 +297,13 @@ const RESUME: &str = include_str!("resume.st");
 const ROTATIONS: &str = include_str!("rotations.st");
 
 /// Prints inputs and outputs.
-fn interface(writer: &mut Writer, spec: &Spec, description: &Description, signature: &Signature) {
+fn interface(
+    writer: &mut Writer,
+    prefix: &str,
+    spec: &Spec,
+    description: &Description,
+    signature: &Signature,
+) {
     let bounds = |bounds| -> Vec<f64> {
         description.variables.iter().map(|one| bound(description, one.kind, bounds)).collect()
     };
@@ -284,18 +315,18 @@ fn interface(writer: &mut Writer, spec: &Spec, description: &Description, signat
                 "largest" => bounds(LARGEST),
                 "rotations" => vec![1.0; 3],
                 _ => {
-                    argument(writer, spec, description, array);
+                    argument(writer, prefix, spec, description, array);
                     continue;
                 }
             };
             document(writer, description, array);
-            numbers(writer, array.name, &values);
+            numbers(writer, prefix, array.name, &values);
         }
         if signature.name == COMPENSATED.name {
             comment(writer, WHEN);
             writer.lines("resume : BOOL;");
             comment(writer, STANDING);
-            numbers(writer, "standing", &homes);
+            numbers(writer, prefix, "standing", &homes);
         }
     });
     section(writer, "VAR_OUTPUT", |writer| {
@@ -306,7 +337,7 @@ fn interface(writer: &mut Writer, spec: &Spec, description: &Description, signat
                 "corrected" | "command" => homes.clone(),
                 _ => vec![0.0; array.len(description)],
             };
-            numbers(writer, array.name, &values);
+            numbers(writer, prefix, array.name, &values);
         }
         writer.lines("status : INT := 1;");
     });

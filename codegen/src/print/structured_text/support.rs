@@ -152,9 +152,9 @@ const NEAREST: &str = include_str!("nearest.st");
 const GUARDED: &str = include_str!("guarded.st");
 
 const QUOTIENT: [&str; 4] = [
-    "Quotient; a fault if it does not exist or exceeds 1E300.",
+    "Quotient; a fault if it does not exist or exceeds 1E74.",
     "dividend, divisor",
-    "ABS(divisor) > ABS(dividend) * LREAL#1.0E-300",
+    "ABS(divisor) > ABS(dividend) * LREAL#1.0E-37 * LREAL#1.0E-37",
     "dividend / divisor",
 ];
 const ROOT: [&str; 4] = ["Square root; a fault for negative numbers.", "x", "x >= LREAL#0.0", "SQRT(x)"];

@@ -23,12 +23,11 @@ pub(super) struct Cells<'c> {
     pub(super) decimal_comma: bool,
 }
 
-/// Sum of a constant and a variable, which counts with the sign −1 if `reversed`.
+/// Sum of a constant and of variables with signs.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Amount {
-    /// Name and span of the variable.
-    pub(super) variable: Option<(String, Span)>,
-    pub(super) reversed: bool,
+    /// Name and span of each variable, and 1 or −1.
+    pub(super) variables: Vec<(String, Span, f64)>,
     pub(super) constant: f64,
 }
 
@@ -112,43 +111,48 @@ impl Cells<'_> {
         let is_length = quantity == Quantity::D;
         let document = self.document;
         let whole = document.text.clone();
-        let Some(name) = variable(&whole, cell.clone()) else {
+        if variable(&whole, cell.clone()).is_none() {
             let constant = self.number(&column, cell, is_length)?;
             return Some(Amount { constant, ..Amount::default() });
-        };
-        let part = |span: Span| {
-            let text = &whole[span.clone()];
-            let inner = text.trim().trim_end_matches('*').trim();
-            let start = span.start + text.find(inner).unwrap_or_default();
-            start..start + inner.len()
-        };
-        // `[constant ±] name [± constant]`
-        let (before, after) = (part(cell.start..name.start), part(name.end..cell.end));
-        let sign_ends = whole[before.clone()].ends_with(['+', '-', '−']);
-        let reversed = whole[before.clone()].ends_with(['-', '−']);
-        let constant_before = match (before.is_empty(), sign_ends) {
-            (true, _) => 0..0,
-            (false, true) => {
-                let sign = whole[before.clone()].chars().next_back().map_or(0, char::len_utf8);
-                part(before.start..before.end - sign)
-            }
-            (false, false) => {
-                return document.fail(not_understood(cell));
-            }
-        };
-        if !(after.is_empty() || whole[after.clone()].starts_with(['+', '-', '−'])) {
-            return document.fail(not_understood(cell));
         }
-        let mut constant = 0.0;
-        for span in [constant_before, after] {
-            if !span.is_empty() {
-                let plus = whole[span.clone()].starts_with('+');
-                let span = if plus { part(span.start + 1..span.end) } else { span };
-                constant += self.number(&column, span, is_length)?;
+        // `[±] term [± term …]`
+        let mut amount = Amount::default();
+        for (sign, term) in terms(&whole, cell.clone()) {
+            match variable(&whole, term.clone()) {
+                Some(name) => {
+                    let beside = [&whole[term.start..name.start], &whole[name.end..term.end]];
+                    if beside.iter().any(|text| !text.trim().trim_end_matches('*').trim().is_empty()) {
+                        return document.fail(not_understood(cell));
+                    }
+                    amount.variables.push((identifier(&whole[name.clone()]), name, sign));
+                }
+                None => amount.constant += sign * self.number(&column, term, is_length)?,
             }
         }
-        Some(Amount { variable: Some((identifier(&whole[name.clone()]), name)), reversed, constant })
+        Some(amount)
     }
+}
+
+/// Splits a cell at its signs, except those of exponents, and trims the terms.
+fn terms(text: &str, cell: Span) -> Vec<(f64, Span)> {
+    let cell_text = &text[cell.clone()];
+    let is_exponent = |at: usize| {
+        let mut before = cell_text[..at].chars().rev();
+        let is_e = before.next().is_some_and(|c| matches!(c, 'e' | 'E'));
+        is_e && before.next().is_some_and(|c| c.is_ascii_digit() || c == '.')
+    };
+    let signs = cell_text.match_indices(['+', '-', '−']).filter(|(at, _)| !is_exponent(*at));
+    let mut ends: Vec<(usize, usize, f64)> = vec![(0, 0, 1.0)];
+    ends.extend(signs.map(|(at, sign)| (at, at + sign.len(), if sign == "+" { 1.0 } else { -1.0 })));
+    let ends_of_terms = ends.iter().skip(1).map(|end| end.0).chain([cell_text.len()]);
+    let term = |(&(_, start, sign), end): (&(usize, usize, f64), usize)| {
+        let inner = cell_text[start..end].trim();
+        let start = cell.start + start + cell_text[start..end].find(inner).unwrap_or_default();
+        (sign, start..start + inner.len())
+    };
+    let terms = ends.iter().zip(ends_of_terms).map(term);
+    // Before the first sign there may be nothing.
+    terms.enumerate().filter(|(k, (_, span))| *k > 0 || !span.is_empty()).map(|(_, term)| term).collect()
 }
 
 /// Returns the first word of a cell that is neither a unit nor a constant.

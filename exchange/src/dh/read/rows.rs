@@ -23,9 +23,15 @@ struct JointMotion {
     prismatic: bool,
     variable: String,
     span: Span,
-    reversed: bool,
+    sign: f64,
+    /// Variable of an earlier row that is added, with its sign.
+    with: Option<(String, f64)>,
     offset: f64,
     limits: Option<[f64; 2]>,
+    /// The row names its variable.
+    is_named: bool,
+    /// The row says that it moves: by that name, its kind, its limits, or no number in its place.
+    is_stated: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -54,7 +60,7 @@ pub(super) fn read(text: &Text, cells: &Cells<'_>, notes: &mut dyn Notes) -> Vec
     let document = cells.document;
     let mut joints: Vec<Joint> = Vec::new();
     for (i, row) in text.rows.iter().enumerate() {
-        let Some(joint) = joint(i, row, cells) else { continue };
+        let Some(joint) = joint(i, row, &joints, cells) else { continue };
         let same = |other: &&Joint| match (&other.motion, &joint.motion) {
             (Some(other), Some(this)) => other.variable == this.variable,
             _ => false,
@@ -63,8 +69,8 @@ pub(super) fn read(text: &Text, cells: &Cells<'_>, notes: &mut dyn Notes) -> Vec
             (joints.iter().find(same), &joint.motion)
         {
             let message = format!("`{}` is the variable of two rows", this.variable);
-            let help = "give each row its own variable; if one joint moves two axes, write this \
-                in the spec: `theta = \"q3 + q2\"`";
+            let help = "give each row its own variable; if one joint moves two axes, write both in \
+                the row of the second: `q3 + q2`";
             let mistake =
                 Diagnostic::new(this.span.clone(), message).context(first.span.clone(), "first row");
             document.mistake(mistake.label("again").help(help));
@@ -76,13 +82,24 @@ pub(super) fn read(text: &Text, cells: &Cells<'_>, notes: &mut dyn Notes) -> Vec
         }
         joints.push(joint);
     }
+    let motions = || joints.iter().filter_map(|joint| joint.motion.as_ref());
+    let is_named = motions().any(|motion| motion.is_named) && document.mistakes() == 0;
+    for joint in joints.iter_mut().filter(|_| is_named) {
+        let Joint { name, motion, numbers } = joint;
+        if let Some(JointMotion { offset, .. }) = motion.take_if(|motion| !motion.is_stated) {
+            numbers[0] = offset;
+            notes.note(&format!(
+                "`{name}` is fixed: its row has numbers only, and others name their variables"
+            ));
+        }
+    }
     if document.mistakes() == 0 && joints.iter().all(|joint| joint.motion.is_none()) {
         let mistake = Diagnostic::new(cells.columns.span.clone(), "this table has no joint variable");
         document.mistake(mistake.help("write `revolute` or `prismatic` in the column `kind` of each joint"));
     }
     let slides = joints.iter().flat_map(|joint| &joint.motion).any(|motion| motion.prismatic);
     // After a mistake only mistakes are reported.
-    if document.mistakes() == 0 && cells.columns.get(Quantity::Kind).is_none() && !slides {
+    if document.mistakes() == 0 && cells.columns.get(Quantity::Kind).is_none() && !slides && !is_named {
         notes.note(
             "the table has no column `kind` and no variable in `d`: all joints were read \
             as revolute",
@@ -92,7 +109,7 @@ pub(super) fn read(text: &Text, cells: &Cells<'_>, notes: &mut dyn Notes) -> Vec
 }
 
 /// Reads row `i`, counted from 0.
-fn joint(i: usize, row: &[Span], cells: &Cells<'_>) -> Option<Joint> {
+fn joint(i: usize, row: &[Span], earlier: &[Joint], cells: &Cells<'_>) -> Option<Joint> {
     let document = cells.document;
     let whole = document.text.clone();
     let theta = cells.amount(row, Quantity::Theta);
@@ -106,18 +123,35 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>) -> Option<Joint> {
         None => None,
         Some((_, cell)) => Some(kind(&whole, cell, document)?),
     };
-    let (theta, d, a, alpha) = (theta?, d?, a?, alpha?);
+    let (mut theta, mut d, a, alpha) = (theta?, d?, a?, alpha?);
+    let is_earlier = |name: &str| {
+        earlier.iter().any(|joint| joint.motion.as_ref().is_some_and(|motion| motion.variable == name))
+    };
+    let mut with = None;
+    for variables in [&mut theta.variables, &mut d.variables] {
+        // `q3 - q2`: the variable of an earlier row turns this one, too.
+        let shared =
+            variables.iter().position(|(name, ..)| is_earlier(name)).filter(|_| variables.len() == 2);
+        with = shared.map(|at| variables.remove(at)).map(|(name, _, sign)| (name, sign)).or(with);
+        if let [_, (name, span, _), ..] = &variables[..] {
+            let mistake = Diagnostic::new(span.clone(), format!("`{name}` is no variable of a row above"));
+            let help = "a row has one variable of its own, and may add one of a row above: `q3 - q2`";
+            return document.fail(mistake.help(help));
+        }
+    }
+    let own = |amount: &Amount| amount.variables.first().cloned();
+    let [in_theta, in_d] = [own(&theta), own(&d)];
     let whole_row = row.first()?.start..row.last()?.end;
-    let kind = match (stated, &theta.variable, &d.variable) {
-        (_, Some((_, first)), Some((_, second))) => {
+    let kind = match (stated, &in_theta, &in_d) {
+        (_, Some((_, first, _)), Some((_, second, _))) => {
             let mistake = Diagnostic::new(second.clone(), "this row has two variables");
             let help = "a row has one variable: write a joint that both rotates and translates as \
                 two rows";
             return document
                 .fail(mistake.context(first.clone(), "first variable").label("second variable").help(help));
         }
-        (Some(Kind::Revolute | Kind::Fixed), None, Some((name, span)))
-        | (Some(Kind::Prismatic | Kind::Fixed), Some((name, span)), None) => {
+        (Some(Kind::Revolute | Kind::Fixed), None, Some((name, span, _)))
+        | (Some(Kind::Prismatic | Kind::Fixed), Some((name, span, _)), None) => {
             let message = format!("the column of the variable `{name}` does not match the `kind` of the row");
             let help = "a prismatic joint has its variable in `d`, a revolute joint in `theta`, and a \
                  fixed row has none";
@@ -136,7 +170,8 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>) -> Option<Joint> {
         return Some(Joint { name, motion: None, numbers: [theta.constant, d.constant, a, alpha] });
     }
     let prismatic = kind == Kind::Prismatic;
-    let Amount { variable, reversed, constant } = if prismatic { d.clone() } else { theta.clone() };
+    let (variable, constant) = if prismatic { (in_d, d.constant) } else { (in_theta, theta.constant) };
+    let has_number = cells.cell(row, Quantity::Theta).is_some();
     let number = |quantity| match cells.cell(row, quantity) {
         Some((column, cell)) => cells.number(&column, cell, prismatic).map(Some),
         None => Some(None),
@@ -182,15 +217,20 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>) -> Option<Joint> {
         (_, false) => format!("q{}", i + 1),
     };
     let span = stated_name.as_ref().map_or(whole_row, |(_, cell)| cell.clone());
-    let (variable, span) = variable.unwrap_or_else(|| (own(), span));
+    let is_named = variable.is_some();
+    let is_stated = stated.is_some() || is_named || limits.is_some() || !has_number;
+    let (variable, span, sign) = variable.unwrap_or_else(|| (own(), span, 1.0));
     let (theta, d) = if prismatic { (theta.constant, 0.0) } else { (0.0, d.constant) };
     let motion = JointMotion {
         prismatic,
         variable,
         span,
-        reversed: reversed != flipped,
+        sign: if flipped { -sign } else { sign },
+        with,
         offset: constant + offset.unwrap_or_default(),
         limits,
+        is_named,
+        is_stated,
     };
     Some(Joint { name, motion: Some(motion), numbers: [theta, d, a, alpha] })
 }
@@ -218,7 +258,11 @@ pub(super) fn frames(
     let (mut variables, mut frames) = (Vec::new(), Vec::new());
     for Joint { name, motion, numbers: [theta, d, a, alpha] } in joints {
         let [theta, alpha] = [theta, alpha].map(|angle| angles.angle(angle));
-        let motion = motion.map(|JointMotion { prismatic, variable, reversed, offset, limits, .. }| {
+        let motion = motion.map(|JointMotion { prismatic, variable, sign, with, offset, limits, .. }| {
+            let index = |(name, sign): (String, f64)| {
+                Some((variables.iter().position(|one: &Variable| one.name == name)?, sign))
+            };
+            let with = with.and_then(index);
             variables.push(Variable {
                 joint: name.clone(),
                 name: variable,
@@ -230,7 +274,8 @@ pub(super) fn frames(
                 prismatic,
                 axis: [0.0, 0.0, 1.0],
                 variable: variables.len() - 1,
-                multiplier: if reversed { -1.0 } else { 1.0 },
+                multiplier: sign,
+                with,
                 offset: if prismatic { offset } else { angles.angle(offset) },
             }
         });

@@ -22,7 +22,7 @@ pub(super) fn transform(chain: &Chain, frame: &Frame, own: bool) -> String {
     };
     match motion {
         None => format!("origin = {}\n", origin(placement)),
-        Some(Motion { axis, multiplier: 1.0, offset: 0.0, prismatic, variable })
+        Some(Motion { axis, multiplier: 1.0, offset: 0.0, prismatic, variable, .. })
             if own && *prismatic == chain.variables[*variable].prismatic =>
         {
             let axis = match axis {
@@ -56,7 +56,7 @@ fn dh_row(chain: &Chain, row: &DhRow, motion: Option<&Motion>) -> String {
     let degrees = chain.degrees;
     let moving = |prismatic: bool| {
         let motion = motion.filter(|motion| motion.prismatic == prismatic)?;
-        let Motion { variable, multiplier, offset, .. } = motion;
+        let Motion { variable, multiplier, with, offset, .. } = motion;
         let name = &chain.variables[*variable].name;
         let sign = if *multiplier < 0.0 { "-" } else { "" };
         let offset = match (*offset, prismatic) {
@@ -64,7 +64,10 @@ fn dh_row(chain: &Chain, row: &DhRow, motion: Option<&Motion>) -> String {
             (offset, true) => signed(&format!("{} {}", number(offset), chain.length.symbol())),
             (offset, false) => signed(&angle(offset, degrees)),
         };
-        Some(quoted(&format!("{sign}{name}{offset}")))
+        let with = with.map_or(String::new(), |(other, sign)| {
+            signed(&format!("{}{}", if sign < 0.0 { "-" } else { "" }, chain.variables[other].name))
+        });
+        Some(quoted(&format!("{sign}{name}{with}{offset}")))
     };
     let theta = moving(false).unwrap_or_else(|| quoted_if_expression(&angle(theta, degrees)));
     let d = moving(true).unwrap_or_else(|| number(d));

@@ -1,7 +1,9 @@
 //! Chain between two links of a robot.
 
+use std::f64::consts::TAU;
+
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::listed;
+use abbe_spec::diagnostic::{listed, nearest};
 use abbe_spec::option::{BASE, BASE_LINK, FOLD, NamedOption, TIP, TIP_LINK};
 use abbe_spec::value::find_name;
 use abbe_spec::{Diagnostic, Document, Notes, as_identifier};
@@ -41,11 +43,19 @@ pub(super) fn chain(
         None => only_tip(tree, &names, document)?,
     };
     let path = tree.path(base, tip);
+    let chain_links = || std::iter::once(base).chain(path.iter().map(|step| step.link));
+    let faults =
+        path.iter().map(|step| &step.joint.faults).chain(chain_links().map(|link| &tree.link(link).faults));
+    let faults: Vec<&Diagnostic> = faults.flatten().collect();
+    if !faults.is_empty() {
+        document.found.borrow_mut().extend(faults.into_iter().cloned());
+        return None;
+    }
     let mut builder = Builder::new(robot, tree, fold, angles);
-    builder.variables(&path, document)?;
-    builder.links = std::iter::once(base).chain(path.iter().map(|step| step.link)).collect();
+    builder.variables(&path, document, notes)?;
+    builder.links = chain_links().collect();
     path.iter().for_each(|step| builder.add(step));
-    let Builder { variables, frames, masses, pending, branches, .. } = builder;
+    let Builder { variables, frames, mut masses, pending, branches, .. } = builder;
     if frames.is_empty() {
         let message = format!("there is no moving joint between `{}` and `{}`", names[base], names[tip]);
         let help = match path.is_empty() {
@@ -53,6 +63,23 @@ pub(super) fn chain(
             false => format!("choose a tip after a moving joint, or leave out `{FOLD}`"),
         };
         return document.refuse(tree.link(tip).span.clone(), message, help);
+    }
+    robot.notes.iter().for_each(|note| notes.note(note));
+    let joints = robot.joints.iter().map(|joint| &joint.faults);
+    let beside = joints.chain(robot.links.iter().map(|link| &link.faults)).flatten().chain(&tree.loose);
+    for Diagnostic { message, span, .. } in beside {
+        let start = span.as_ref().map_or(0, |span| span.start);
+        let line = document.text[..start].matches('\n').count() + 1;
+        notes.note(&format!("line {line}, beside the chain and left out: {message}"));
+    }
+    let moves = |step: &Step<'_>| step.joint.kind != JointKind::Fixed;
+    if !masses.is_empty() && tree.path(tree.root(), base).iter().any(moves) {
+        masses.clear();
+        notes.note(&format!(
+            "the base `{}` moves against `{}`, the root: gravity has no fixed direction in it, and no loads are written",
+            names[base],
+            names[tree.root()]
+        ));
     }
     if robot.meshes > 0 {
         notes.note(&format!("{} mesh files are ignored: a spec has no shapes", robot.meshes));
@@ -107,6 +134,29 @@ fn only_tip(tree: &Tree<'_>, names: &[&str], document: &Document) -> Option<usiz
     }
 }
 
+/// Size of limits, in turns or metres, from which they stand for none.
+const NONE: f64 = 1000.0;
+
+/// Returns the limits of a joint. Asks about those that may be in degrees.
+fn limits(joint: &Joint, notes: &mut dyn Notes) -> Option<[f64; 2]> {
+    let [lower, upper] = joint.limits?;
+    let (largest, is_slide) = (lower.abs().max(upper.abs()), joint.kind == JointKind::Prismatic);
+    let (turns, name) = (largest / TAU, joint.name.escape_debug());
+    let unit = if is_slide { "m" } else { "rad" };
+    if largest >= if is_slide { NONE } else { NONE * TAU } {
+        notes.note(&format!("the limits of `{name}`, {lower} to {upper} {unit}, count as none"));
+        return None;
+    }
+    let is_round = [lower, upper].iter().all(|limit| limit % 5.0 == 0.0);
+    if !is_slide && (turns > 2.0 || turns > 1.0 && is_round) {
+        notes.warn(&format!(
+            "the limits of `{name}` are {lower} to {upper} rad, up to {turns:.1} turns: if they are degrees, write `limits = \
+             [\"{lower} deg\", \"{upper} deg\"]` in the spec"
+        ));
+    }
+    Some([lower, upper])
+}
+
 /// Builds a chain, joint by joint.
 struct Builder<'r> {
     robot: &'r Robot,
@@ -135,7 +185,7 @@ impl<'r> Builder<'r> {
 
     /// Collects the variables of the joints on the path: their own, or that of the joint that they
     /// follow.
-    fn variables(&mut self, path: &[Step<'r>], document: &Document) -> Option<()> {
+    fn variables(&mut self, path: &[Step<'r>], document: &Document, notes: &mut dyn Notes) -> Option<()> {
         for Step { joint, .. } in path {
             match joint.kind {
                 JointKind::Fixed => continue,
@@ -147,15 +197,18 @@ impl<'r> Builder<'r> {
                 }
                 JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {}
             }
-            let (leader, [multiplier, offset]) = self.leader(joint, document)?;
+            let (leader, [multiplier, offset]) = self.leader(joint, document, notes)?;
             let existing = self.variables.iter().position(|variable| variable.joint == leader.name);
             let variable = existing.unwrap_or_else(|| {
+                let limits = limits(leader, notes);
+                let is_endless = leader.limits.is_some() && limits.is_none();
                 self.variables.push(Variable {
                     name: self.free_name(&leader.name),
                     joint: leader.name.clone(),
                     prismatic: leader.kind == JointKind::Prismatic,
-                    limits: leader.limits,
-                    continuous: leader.kind == JointKind::Continuous,
+                    limits,
+                    continuous: leader.kind == JointKind::Continuous
+                        || is_endless && leader.kind == JointKind::Revolute,
                 });
                 self.variables.len() - 1
             });
@@ -166,7 +219,12 @@ impl<'r> Builder<'r> {
 
     /// Returns the joint whose variable moves a joint, itself if it follows none, with multiplier
     /// and offset.
-    fn leader(&self, joint: &'r Joint, document: &Document) -> Option<(&'r Joint, [f64; 2])> {
+    fn leader(
+        &self,
+        joint: &'r Joint,
+        document: &Document,
+        notes: &mut dyn Notes,
+    ) -> Option<(&'r Joint, [f64; 2])> {
         let (mut leader, [mut multiplier, mut offset]) = (joint, [1.0, 0.0]);
         for _ in 0..=self.robot.joints.len() {
             let Some(mimic) = &leader.mimic else {
@@ -184,6 +242,15 @@ impl<'r> Builder<'r> {
             };
             let names: Vec<&str> = self.robot.joints.iter().map(|joint| joint.name.as_str()).collect();
             let followed = &mimic.joint;
+            if !names.contains(&&followed.name[..])
+                && nearest(&followed.name, names.iter().copied()).is_none()
+            {
+                let [name, other] = [&leader.name, &followed.name].map(|name| name.escape_debug());
+                notes.warn(&format!(
+                    "`{name}` mimics `{other}`, which is no joint: it was given a variable of its own"
+                ));
+                return Some((leader, [multiplier, offset]));
+            }
             let next = find_name(document, followed.span.clone(), &followed.name, &names, "joint")?;
             offset += multiplier * mimic.offset;
             multiplier *= mimic.multiplier;
@@ -215,6 +282,7 @@ impl<'r> Builder<'r> {
                 axis: joint.axis,
                 variable,
                 multiplier: sign * multiplier,
+                with: None,
                 offset: sign * offset,
             },
         );
@@ -247,7 +315,7 @@ impl<'r> Builder<'r> {
             }
             for (joint, other, placement) in self.tree.neighbours(link) {
                 match joint.kind {
-                    _ if other == from || self.links.contains(&other) => {}
+                    _ if other == from || self.links.contains(&other) || !joint.faults.is_empty() => {}
                     JointKind::Fixed => rigid.push((other, link, at.then(&placement))),
                     _ => self.branches.push(&joint.name),
                 }

@@ -1,5 +1,6 @@
 //! Links and joints of a URDF file, with the spans that mistakes point to.
 
+use abbe_spec::Diagnostic;
 use abbe_spec::diagnostic::Span;
 
 use crate::placement::Placement;
@@ -12,6 +13,8 @@ pub(super) struct Robot {
     pub(super) joints: Vec<Joint>,
     /// Number of shapes in other files, which are not read.
     pub(super) meshes: usize,
+    /// Sentences about what was not read as it stands.
+    pub(super) notes: Vec<String>,
 }
 
 /// Rigid body.
@@ -21,6 +24,8 @@ pub(super) struct Link {
     pub(super) span: Span,
     /// Mass in kg and centre of mass in the frame of the link.
     pub(super) mass: Option<(f64, [f64; 3])>,
+    /// Mistakes, which matter if the chain has the link.
+    pub(super) faults: Vec<Diagnostic>,
 }
 
 /// Joint between two links: the frame of the child is at `placement` in the parent, and moves after
@@ -38,6 +43,8 @@ pub(super) struct Joint {
     /// Lower and upper limit in rad or m.
     pub(super) limits: Option<[f64; 2]>,
     pub(super) mimic: Option<Mimic>,
+    /// Mistakes, which matter if the chain has the joint.
+    pub(super) faults: Vec<Diagnostic>,
 }
 
 /// Reference to a link or joint by its name.

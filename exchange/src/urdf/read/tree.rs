@@ -16,6 +16,8 @@ pub(super) struct Tree<'r> {
     carrier: Vec<Option<(usize, usize)>>,
     /// Joints on each link, and their child links.
     carried: Vec<Vec<(usize, usize)>>,
+    /// Joints whose links are not declared.
+    pub(super) loose: Vec<Diagnostic>,
 }
 
 impl<'r> Tree<'r> {
@@ -33,7 +35,9 @@ impl<'r> Tree<'r> {
                 None
             }
         };
+        let begin = document.mistakes();
         let ends: Vec<_> = joints.iter().map(|joint| (link(&joint.parent), link(&joint.child))).collect();
+        let loose = document.found.borrow_mut().split_off(begin);
         let mut carrier: Vec<Option<(usize, usize)>> = vec![None; links.len()];
         let mut carried = vec![Vec::new(); links.len()];
         for (j, ends) in ends.into_iter().enumerate() {
@@ -58,7 +62,11 @@ impl<'r> Tree<'r> {
         if document.mistakes() > before {
             return None;
         }
-        let tree = Self { robot, carrier, carried };
+        let tree = Self { robot, carrier, carried, loose };
+        if tree.roots().count() > 1 && !tree.loose.is_empty() {
+            document.found.borrow_mut().extend(tree.loose);
+            return None;
+        }
         tree.check_roots(document)?;
         Some(tree)
     }

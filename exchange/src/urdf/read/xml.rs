@@ -1,16 +1,33 @@
 //! Parses the XML of a URDF file into links and joints.
 
+use std::collections::HashSet;
+
 use abbe_spec::diagnostic::Span;
 use abbe_spec::visible::alters_text;
 use abbe_spec::{Diagnostic, Document};
-use roxmltree::{Attribute, Node};
+use roxmltree::{Attribute, Error, Node};
 
 use super::robot::{Joint, JointKind, Link, Mimic, Named, Robot};
 use crate::placement::Placement;
 
 /// Parses a robot; mistakes go to the document.
 pub(super) fn robot(document: &Document) -> Option<Robot> {
-    let text = document.text.clone();
+    let mut text = document.text.to_string();
+    let mut notes = Vec::new();
+    // URDF has no namespaces: its readers take a prefix as part of a name.
+    while let Err(Error::UnknownNamespace(prefix, at)) = roxmltree::Document::parse(&text) {
+        let joined = ["<", "</", " ", "\t", "\n"].iter().fold(text.clone(), |text, before| {
+            text.replace(&format!("{before}{prefix}:"), &format!("{before}{prefix}_"))
+        });
+        if joined == text {
+            break;
+        }
+        notes.push(format!(
+            "line {}: the prefix `{prefix}` is not declared, and was read as part of names",
+            at.row
+        ));
+        text = joined;
+    }
     let xml = match roxmltree::Document::parse(&text) {
         Ok(xml) => xml,
         Err(error) => return document.fail(not_xml(&text, &error)),
@@ -19,12 +36,54 @@ pub(super) fn robot(document: &Document) -> Option<Robot> {
     if let Some(mistake) = not_urdf(root) {
         return document.fail(mistake);
     }
+    let line = |node: Node<'_, '_>| text[..node.range().start].matches('\n').count() + 1;
+    for node in root.children().filter(is_macro) {
+        let name = node.tag_name().name();
+        notes.push(format!("line {}: the macro `{name}` was not expanded, and is ignored", line(node)));
+    }
     let children = |tag| root.children().filter(move |node| node.has_tag_name(tag));
-    let links = children("link").filter_map(|node| link(node, document)).collect();
-    let joints = children("joint").filter_map(|node| joint(node, document)).collect();
+    let mut links: Vec<Link> = children("link").filter_map(|node| link(node, document)).collect();
+    let joints: Vec<Joint> = children("joint").filter_map(|node| joint(node, document)).collect();
+    if let Some(root) = undeclared_root(&links, &joints) {
+        notes.push(format!(
+            "the link `{}` is not declared, and was read as the root",
+            root.name.escape_debug()
+        ));
+        links.push(Link { name: root.name.clone(), span: root.span.clone(), mass: None, faults: Vec::new() });
+    }
     let meshes = root.descendants().filter(|node| node.has_tag_name("mesh")).count();
     let name = root.attribute("name").filter(|name| !name.trim().is_empty()).unwrap_or("robot").to_owned();
-    Some(Robot { name, links, joints, meshes })
+    Some(Robot { name, links, joints, meshes, notes })
+}
+
+/// Returns the only parent that is no link, if no link can be the root.
+fn undeclared_root<'r>(links: &[Link], joints: &'r [Joint]) -> Option<&'r Named> {
+    let declared: HashSet<&str> = links.iter().map(|link| &link.name[..]).collect();
+    let carried: HashSet<&str> = joints.iter().map(|joint| &joint.child.name[..]).collect();
+    let mut parents =
+        joints.iter().map(|joint| &joint.parent).filter(|parent| !declared.contains(&parent.name[..]));
+    let first = parents.next()?;
+    let is_root = parents.all(|other| other.name == first.name) && !carried.contains(&first.name[..]);
+    (is_root && declared.is_subset(&carried)).then_some(first)
+}
+
+/// Returns `true` for an element of xacro.
+fn is_macro(node: &Node<'_, '_>) -> bool {
+    node.tag_name().namespace().is_some_and(|namespace| namespace.contains("xacro"))
+}
+
+/// Records the first thing that xacro has left inside an element.
+fn check_expanded(node: Node<'_, '_>, document: &Document) {
+    let has_value = |node: &Node<'_, '_>| node.attributes().any(|attribute| attribute.value().contains("${"));
+    if let Some(node) = node.descendants().find(|node| is_macro(node) || has_value(node)) {
+        document.mistake(not_expanded(node));
+    }
+}
+
+fn not_expanded(node: Node<'_, '_>) -> Diagnostic {
+    Diagnostic::new(start_of(node), "this is a xacro file, not a URDF file")
+        .label("a xacro macro or substitution")
+        .help("expand it first: `xacro FILE.xacro > robot.urdf`")
 }
 
 /// Returns the mistake in a file that is not XML.
@@ -55,17 +114,14 @@ fn not_xml(text: &str, error: &roxmltree::Error) -> Diagnostic {
 /// Returns the mistake if the root is not that of a URDF file.
 fn not_urdf(root: Node<'_, '_>) -> Option<Diagnostic> {
     let span = start_of(root);
-    let xacro = |node: &Node<'_, '_>| {
-        node.tag_name().namespace().is_some_and(|namespace| namespace.contains("xacro"))
-            || node.attributes().any(|attribute| attribute.value().contains("${"))
-    };
     let name = root.tag_name().name();
-    if let Some(node) = root.descendants().find(xacro) {
-        return Some(
-            Diagnostic::new(start_of(node), "this is a xacro file, not a URDF file")
-                .label("a xacro macro or substitution")
-                .help("expand it first: `xacro FILE.xacro > robot.urdf`"),
-        );
+    // What defines or includes something has not been expanded; a call may have been forgotten.
+    let defines = |node: &Node<'_, '_>| {
+        is_macro(node)
+            && matches!(node.tag_name().name(), "macro" | "property" | "include" | "arg" | "if" | "unless")
+    };
+    if let Some(node) = root.descendants().find(defines) {
+        return Some(not_expanded(node));
     }
     let help = match name {
         "robot" => return None,
@@ -88,6 +144,8 @@ fn start_of(node: Node<'_, '_>) -> Span {
 
 fn link(node: Node<'_, '_>, document: &Document) -> Option<Link> {
     let name = name(node, document)?;
+    let before = document.mistakes();
+    child(node, "inertial").iter().for_each(|inertial| check_expanded(*inertial, document));
     let mass = child(node, "inertial").and_then(|inertial| {
         let mass = child(inertial, "mass").and_then(|mass| number(mass, "value", document))?;
         let centre = placement(child(inertial, "origin"), document)?;
@@ -100,29 +158,32 @@ fn link(node: Node<'_, '_>, document: &Document) -> Option<Link> {
         let mistake = Diagnostic::new(start_of(node), message);
         document.mistake(mistake.help("a mass must be 0 or positive"));
     }
-    Some(Link { name, span: start_of(node), mass })
+    let faults = document.found.borrow_mut().split_off(before);
+    Some(Link { name, span: start_of(node), mass, faults })
 }
 
 fn joint(node: Node<'_, '_>, document: &Document) -> Option<Joint> {
-    let name = name(node, document);
-    let kind = kind(node, document);
-    let parent = end(node, "parent", document);
-    let child_link = end(node, "child", document);
-    let placement = placement(child(node, "origin"), document);
-    let (name, kind) = (name?, kind?);
-    let axis = axis(node, &name, kind, document);
-    let limits = limits(node, &name, kind, document);
-    let mimic = child(node, "mimic").map_or(Some(None), |node| mimic(node, document).map(Some))?;
+    let [parent, child_link] = ["parent", "child"].map(|tag| end(node, tag, document));
+    let (name, parent, child_link) = (name(node, document)?, parent?, child_link?);
+    let before = document.mistakes();
+    check_expanded(node, document);
+    let kind = kind(node, document).unwrap_or(JointKind::Fixed);
+    let placement = placement(child(node, "origin"), document).unwrap_or_default();
+    let axis = axis(node, &name, kind, document).unwrap_or_default();
+    let limits = limits(node, &name, kind, document).flatten();
+    let mimic = child(node, "mimic").and_then(|node| mimic(node, document));
+    let faults = document.found.borrow_mut().split_off(before);
     Some(Joint {
         span: start_of(node),
         kind,
-        parent: parent?,
-        child: child_link?,
-        placement: placement?,
-        axis: axis?,
-        limits: limits?,
+        parent,
+        child: child_link,
+        placement,
+        axis,
+        limits,
         mimic,
         name,
+        faults,
     })
 }
 

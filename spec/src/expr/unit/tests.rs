@@ -65,3 +65,63 @@ fn every_name_has_a_unit() {
         assert!(Unit::named(name).is_some(), "{name}");
     }
 }
+
+/// What a hint says to write for a spelling has the size that was meant.
+#[test]
+fn hints_have_the_size_that_was_meant() {
+    let inch = 0.0254;
+    for (word, size) in [
+        ("Nm", 1.0),
+        ("Nmm", 1e-3),
+        ("kNm", 1e3),
+        ("micron", 1e-6),
+        ("in", inch),
+        ("mil", 1e-3 * inch),
+        ("ft", 0.3048),
+        ("millimeter", 1e-3),
+        ("degrees", std::f64::consts::PI / 180.0),
+        ("gon", std::f64::consts::PI / 200.0),
+        ("kgf", 9.80665),
+        ("lbf", 4.448_221_615_260_5),
+        ("bar", 1e5),
+        ("Kg", 1.0),
+        ("mpa", 1e6),
+        ("arcsecs", std::f64::consts::PI / 648_000.0),
+    ] {
+        let help = unit_help(word);
+        let unit = help.split('`').nth(1).unwrap_or_else(|| panic!("{word}: {help}"));
+        let text = if unit.starts_with(|c: char| c.is_ascii_digit()) {
+            unit.to_owned()
+        } else {
+            format!("1 {unit}")
+        };
+        let document = crate::Document::new("hint", text.as_str());
+        let factors = text.split([' ', '*']).skip(1).map(|name| Unit::named(name).expect(name).dimension);
+        let dimension = factors.fold(Dimension::NONE, |all, one| all.times(one).unwrap());
+        let value = crate::value::parse_value(&document, 0..text.len(), LengthUnit::Metre, dimension, "it");
+        let value = value.unwrap_or_else(|| panic!("{word}: {help}"));
+        assert!((value / size - 1.0).abs() < 1e-12, "{word}: {help}, {value}");
+    }
+    // Nothing of another size is offered.
+    for word in ["degC", "V", "px", "tick", "Hz", "rpm", "x", "kW", "mn"] {
+        assert!(!unit_help(word).contains("did you mean"), "{word}: {}", unit_help(word));
+    }
+}
+
+/// Units that are offered for a number without one have its dimension.
+#[test]
+fn units_of_engineers_have_the_dimension() {
+    let metre = Unit::named("m").unwrap().dimension;
+    for power in -4..=4 {
+        for base in [Dimension::FORCE, Dimension::NONE.over(Dimension::FORCE).unwrap(), Dimension::MASS] {
+            let dimension = base.times(metre.power(f64::from(power)).unwrap()).unwrap();
+            for unit in dimension.units("mm") {
+                let text = format!("1 {unit}");
+                let document = crate::Document::new("hint", text.as_str());
+                let value =
+                    crate::value::parse_value(&document, 0..text.len(), LengthUnit::Metre, dimension, "it");
+                assert!(value.is_some(), "{unit}: {:?}", document.found.borrow());
+            }
+        }
+    }
+}
