@@ -9,7 +9,7 @@ for (int at_call = 0; at_call < CASES; at_call++) {
     for (int j = 0; j < COUNT; j++) {
         const double lower = NAME_limits[j][0];
         const double span = NAME_limits[j][1] - lower;
-        double share = (double)(((7 * k) + (3 * j)) % 13) / 12.0;
+        double share = (double)(1 + (((7 * k) + (3 * j)) % 13)) / 14.0;
         if (k >= ANYWHERE && ((k - SAME) % JOINTS) == j) {
             share = (k < BELOW) ? -0.001 : 1.001;
         }

@@ -67,7 +67,7 @@ impl<'m> Commands<'m> {
             let span = nearest(upper - lower);
             let share = match () {
                 () if k < anywhere || (k - same) % (anywhere - same) != j => {
-                    ((7 * k + 3 * j) % 13) as f64 / 12.0
+                    (1 + (7 * k + 3 * j) % 13) as f64 / 14.0
                 }
                 () if k < below => -BEYOND,
                 () => 1.0 + BEYOND,

@@ -190,7 +190,7 @@ impl CPrinter<'_> {
         let each = results.len();
         let is_wrong = |(i, array): (usize, &Array)| {
             let (name, len) = (array.name, array.len(description));
-            let at = if each == 1 { "at_call".to_owned() } else { format!("({each} * at_call) + {i}") };
+            let at = if i == 0 { format!("{each} * at_call") } else { format!("({each} * at_call) + {i}") };
             format!("\n        || sums_to({name}, {len}, expected[{at}], tolerances[{at}]) == 0")
         };
         let [same, anywhere, below, _] = commands.ends();

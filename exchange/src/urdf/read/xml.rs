@@ -72,12 +72,13 @@ fn is_macro(node: &Node<'_, '_>) -> bool {
     node.tag_name().namespace().is_some_and(|namespace| namespace.contains("xacro"))
 }
 
-/// Records the first thing that xacro has left inside an element.
-fn check_expanded(node: Node<'_, '_>, document: &Document) {
+/// Takes the mistakes of an element from the document. If xacro has left something in it, that is
+/// the only one: the others follow from it.
+fn faults(node: Option<Node<'_, '_>>, before: usize, document: &Document) -> Vec<Diagnostic> {
+    let faults = document.found.borrow_mut().split_off(before);
     let has_value = |node: &Node<'_, '_>| node.attributes().any(|attribute| attribute.value().contains("${"));
-    if let Some(node) = node.descendants().find(|node| is_macro(node) || has_value(node)) {
-        document.mistake(not_expanded(node));
-    }
+    let left = node.and_then(|node| node.descendants().find(|node| is_macro(node) || has_value(node)));
+    left.map_or(faults, |node| vec![not_expanded(node)])
 }
 
 fn not_expanded(node: Node<'_, '_>) -> Diagnostic {
@@ -145,7 +146,6 @@ fn start_of(node: Node<'_, '_>) -> Span {
 fn link(node: Node<'_, '_>, document: &Document) -> Option<Link> {
     let name = name(node, document)?;
     let before = document.mistakes();
-    child(node, "inertial").iter().for_each(|inertial| check_expanded(*inertial, document));
     let mass = child(node, "inertial").and_then(|inertial| {
         let mass = child(inertial, "mass").and_then(|mass| number(mass, "value", document))?;
         let centre = placement(child(inertial, "origin"), document)?;
@@ -158,7 +158,7 @@ fn link(node: Node<'_, '_>, document: &Document) -> Option<Link> {
         let mistake = Diagnostic::new(start_of(node), message);
         document.mistake(mistake.help("a mass must be 0 or positive"));
     }
-    let faults = document.found.borrow_mut().split_off(before);
+    let faults = faults(child(node, "inertial"), before, document);
     Some(Link { name, span: start_of(node), mass, faults })
 }
 
@@ -166,13 +166,12 @@ fn joint(node: Node<'_, '_>, document: &Document) -> Option<Joint> {
     let [parent, child_link] = ["parent", "child"].map(|tag| end(node, tag, document));
     let (name, parent, child_link) = (name(node, document)?, parent?, child_link?);
     let before = document.mistakes();
-    check_expanded(node, document);
     let kind = kind(node, document).unwrap_or(JointKind::Fixed);
     let placement = placement(child(node, "origin"), document).unwrap_or_default();
     let axis = axis(node, &name, kind, document).unwrap_or_default();
     let limits = limits(node, &name, kind, document).flatten();
     let mimic = child(node, "mimic").and_then(|node| mimic(node, document));
-    let faults = document.found.borrow_mut().split_off(before);
+    let faults = faults(Some(node), before, document);
     Some(Joint {
         span: start_of(node),
         kind,
