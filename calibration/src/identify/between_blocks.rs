@@ -16,8 +16,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::linearize::{linearize, with_priors};
-use super::statistics::f_beyond;
-use super::{Configurations, Failure, Fit, Folds, Model, Observation};
+use super::{Configurations, Failure, Fit, Folds, Model, Observation, f_beyond};
 use abbe_analysis::in_order;
 
 /// Variance of a fit between blocks.

@@ -2,9 +2,8 @@
 
 use core::borrow::Borrow;
 
-use super::evaluated_model::EvaluatedModel;
 use super::linearize::by_blocks;
-use super::{Camera, Distances, Failure, Figures, Measurement, Model, Observation};
+use super::{Camera, Distances, EvaluatedModel, Failure, Figures, Measurement, Model, Observation};
 use abbe_analysis::sampling;
 use abbe_analysis::sampling::vectors::subtract as difference;
 use abbe_core::Pose;

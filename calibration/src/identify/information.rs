@@ -5,9 +5,8 @@ use core::convert::Infallible;
 use nalgebra::allocator::Allocator;
 use nalgebra::{Cholesky, Const, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
-use super::evaluated_model::EvaluatedModel;
 use super::linearize::by_blocks;
-use super::{Failure, Measurement, Model, Observation};
+use super::{EvaluatedModel, Failure, Measurement, Model, Observation};
 use abbe_analysis::decompose::symmetric_eigen;
 use abbe_analysis::in_order;
 

@@ -3,9 +3,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::evaluated_model::EvaluatedModel;
 use super::triangle::{Problem, Triangle};
-use super::{Failure, Model, Observation};
+use super::{EvaluatedModel, Failure, Model, Observation};
 use abbe_analysis::in_order;
 
 /// Accumulates residuals and derivatives of all observations and known distances at `x`, with

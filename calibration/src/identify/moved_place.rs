@@ -25,8 +25,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::statistics::f_test;
-use super::{Failure, Model, Observation, Unknown};
+use super::{Failure, Model, Observation, Unknown, f_test};
 
 /// A place that is not where the model has it.
 #[derive(Clone, Debug, PartialEq)]

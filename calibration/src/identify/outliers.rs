@@ -12,8 +12,7 @@ use super::fit::REJECTED;
 use super::linearize::by_blocks;
 use super::robust::robust_scale_after;
 use super::solver::{Residuals, Solver};
-use super::statistics::f_beyond;
-use super::{Configurations, Failure, Folds, Loss, Observation, Options};
+use super::{Configurations, Failure, Folds, Loss, Observation, Options, f_beyond};
 
 /// Probability that any good row is rejected.
 const CHANCE: f64 = 0.01;

@@ -3,8 +3,9 @@
 //! Known distances of fixtures have rows of one number each, beside those of the observations.
 
 use super::columns::turned;
-use super::evaluated_model::EvaluatedModel;
-use super::{Failure, FixtureGeometry, Measurement, Model, Observation, ReferenceLength, Unknown};
+use super::{
+    EvaluatedModel, Failure, FixtureGeometry, Measurement, Model, Observation, ReferenceLength, Unknown,
+};
 use abbe_analysis::sampling::vectors::{dot, subtract as difference, unit};
 use abbe_core::{Error, Pose, Quantity, rotation_vector};
 

@@ -8,8 +8,7 @@ use rand_distr::Normal;
 use super::{Failure, Measurement, Model, Observation, Unknown};
 use abbe_analysis::ErrorParts;
 use abbe_analysis::sampling::stream;
-use abbe_core::displacement;
-use abbe_core::{Class, VariableKind};
+use abbe_core::{Class, VariableKind, displacement};
 
 /// Random contributions to simulated measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]

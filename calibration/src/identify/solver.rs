@@ -12,10 +12,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::evaluated_model::EvaluatedModel;
 use super::linearize::{by_blocks, linearize, with_priors};
 use super::triangle::Problem;
-use super::{Failure, Loss, Model, Observation};
+use super::{EvaluatedModel, Failure, Loss, Model, Observation};
 
 /// State of a fit.
 #[derive(Clone)]
