@@ -1,10 +1,9 @@
 //! Acceptance limits on the errors of test rows.
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
-use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
+use abbe_spec::{Diagnostic, Diagnostics, Document};
 use serde::Serialize;
 
 use crate::sizes::Sizes;

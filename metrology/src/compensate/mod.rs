@@ -4,9 +4,8 @@ pub mod options;
 mod rows;
 
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::POSES;
+use abbe_spec::{Diagnostics, Spec};
 use serde::Serialize;
 
 use crate::data::{Base, Channel, Data, Heading, Layout, Map, Summary, Table, Unusable};

@@ -6,9 +6,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::{Diagnostics, Spec};
 use abbe_study::mistake;
 
-use super::column::{Channel, Column};
-use super::rotation;
-use super::turn::Turn;
+use super::{Channel, Column, Turn, rotation};
 
 /// Columns of the pose at which the controller has the tool of the nominal machine.
 #[derive(Clone, Debug)]

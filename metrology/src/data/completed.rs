@@ -10,10 +10,8 @@ use abbe_spec::{Diagnostics, Spec};
 use abbe_study::mistake;
 use abbe_study::open_loops::open_loops;
 
-use super::column::Channel;
-use super::from_rows::{in_order, set_input, with_references};
-use super::map::Map;
 use super::rows::{Data, SHOWN};
+use super::{Channel, Map, in_order, set_input, with_references};
 
 impl Map {
     /// Returns whether an input is computed from the rows.

@@ -3,9 +3,7 @@
 use abbe::Pose;
 use abbe::identify::{Measurement, Observation};
 
-use super::column::Channel;
-use super::map::{Layout, Map};
-use super::rotation;
+use super::{Channel, Layout, Map, rotation};
 
 impl Map {
     /// Converts the numbers of the measured columns to a measurement, without hidden targets; or

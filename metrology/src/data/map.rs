@@ -8,14 +8,9 @@ use abbe::analysis::Configuration;
 use abbe::identify::{Measurement, Observation, Uncertainty};
 use abbe_spec::{Diagnostics, Spec};
 
-use super::column::{Channel, Column, Scale};
 use super::command_pose::CommandPose;
 use super::configurations::resolution;
-use super::instrument::Instruments;
-use super::sight::Sight;
-use super::station::{Placement, Stations};
-use super::target_frame::TargetFrame;
-use super::turn::Turn;
+use super::{Channel, Column, Instruments, Placement, Scale, Sight, Stations, TargetFrame, Turn};
 use crate::Acceptance;
 use abbe_study::number::short;
 use abbe_study::workspace::has_range;

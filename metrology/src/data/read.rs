@@ -5,21 +5,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use abbe::identify::{Uncertainty, register};
-use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
-use abbe_spec::{Diagnostic, Diagnostics, Spec};
+use abbe_spec::{Diagnostic, Diagnostics, Document, Item, Section, Spec};
 
 use super::choices::{BASES, COMMANDS, JUDGED_TARGETS, QUATERNION_ORDERS};
-use super::column::Column;
 use super::command_pose::CommandPose;
 use super::configurations::resolution;
-use super::keys;
-use super::map::{Base, Layout, Map, Target};
 use super::read_channels::{column, columns, deviation, initial_deviation, inputs, joints, unit};
 use super::read_instruments::{instruments, target_position};
 use super::read_places::{distances, found_places, placement, sight, stations};
-use super::target_frame::TargetFrame;
-use super::turn::{EULER_ORDERS, Turn};
+use super::{Base, Column, EULER_ORDERS, Layout, Map, Target, TargetFrame, Turn, keys};
 use crate::acceptance::{Acceptance, FIGURE_NAMES, TARGET};
 use abbe_study::{RunRecord, check_date, named};
 

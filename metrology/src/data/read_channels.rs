@@ -3,16 +3,11 @@
 //! Readers of constants, columns and units.
 
 use abbe::{LengthUnit, VariableKind};
-use abbe_spec::diagnostic::Diagnostic;
-use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::{Dimension, LARGEST};
 use abbe_spec::value::{find_name, parse_value, read_name};
-use abbe_spec::{Input, Spec};
+use abbe_spec::{Diagnostic, Document, Input, Item, Section, Spec};
 
-use super::choices::UNKNOWN;
-use super::column::{Channel, Column, Scale};
-use super::from_rows::FromRows;
-use super::keys;
+use super::{Channel, Column, FromRows, Scale, UNKNOWN, keys};
 
 pub(super) fn joints(root: &Section<'_>, spec: &Spec) -> Option<Vec<Channel>> {
     let section = root.required("joints").and_then(|item| item.section())?;

@@ -8,12 +8,9 @@ use abbe_spec::document::{Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::read_name;
 
-use super::column::Column;
-use super::instrument::{Instrument, Instruments};
-use super::keys;
 use super::read_camera::camera;
 use super::read_channels::{column, columns, deviation, initial_deviation, is_unknown, unit};
-use super::target_frame::TargetFrame;
+use super::{Column, Instrument, Instruments, TargetFrame, keys};
 
 /// A target with a name.
 struct Named {

@@ -16,13 +16,11 @@ use abbe_study::date::{Calendar, parse_date};
 use abbe_study::{mistake, number};
 use serde::Serialize;
 
-use super::column::{Channel, Column};
 use super::command_pose::{CommandPose, inverse};
 use super::configurations::number_configurations;
 use super::instrument::{Instruments, NOTHING_READ};
-use super::map::{Layout, Map};
 use super::record::Record;
-use super::source::Source;
+use super::{Channel, Column, Layout, Map, Source};
 
 /// A row that cannot be used.
 #[derive(Clone, Debug, Serialize)]

@@ -8,10 +8,9 @@ use std::ops::Range;
 use std::path::Path;
 
 use abbe::VariableKind;
-use abbe_spec::document::Item;
 use abbe_spec::edit::Edits;
 use abbe_spec::edit::write::quoted;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::{Diagnostics, Item, Spec};
 
 use super::job::Report;
 use crate::interpretations::{Change, words};

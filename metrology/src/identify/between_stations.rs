@@ -4,9 +4,8 @@
 use abbe::identify::{Failure, between_stations};
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::priors::Prior;
-use super::setup::Setup;
 use super::solve::Solved;
+use super::{Prior, Setup};
 use crate::data::Data;
 use abbe_study::mistake;
 use abbe_study::number::{self, digits};

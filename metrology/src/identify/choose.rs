@@ -6,11 +6,9 @@ use abbe::identify::{CandidateTerms, Folds, Model, ModelTerm, Observation, Selec
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::candidates::Stages;
 use super::complete_fit::{Assessed, FitInput};
-use super::extended::{extended, own_magnitudes};
 use super::solve::{Solved, diagnose, solve};
-use super::terms::{Basis, ErrorSite, Term};
+use super::{Basis, ErrorSite, Stages, Term, extended, own_magnitudes};
 use abbe_study::Notes;
 
 /// Probability of accepting a term by chance, over all stages.

@@ -5,9 +5,8 @@ use abbe::identify::Model;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::TERMS;
 
-use super::report::Compared;
-use super::setup::Setup;
 use super::solve::Solved;
+use super::{Compared, Setup};
 use crate::data::Data;
 use abbe_study::{mistake, number};
 

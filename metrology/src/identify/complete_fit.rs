@@ -2,18 +2,12 @@
 
 use abbe::identify::{Comparison, Distances, Failure, Folds, cross_validate};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 
 use super::as_joint_errors::number_terms;
-use super::extended::{extended, own_magnitudes};
 use super::instruments::estimate;
-use super::interpretation_check::check_interpretation;
-use super::options::Settings;
-use super::plausibility::check_plausibility;
-use super::setup::Setup;
 use super::solve::{Solved, diagnose, solve};
-use super::terms::Term;
+use super::{Settings, Setup, Term, check_interpretation, check_plausibility, extended, own_magnitudes};
 use crate::data::{Data, Map};
 use abbe_study::{Notes, mistake};
 

@@ -19,10 +19,9 @@ use abbe::{Component, Error, Pose, Quantity};
 use nalgebra::{DMatrix, RowDVector, SymmetricEigen};
 
 use super::as_joint_errors::AsJointErrors;
-use super::chain_numbers::unknowns_of;
 use super::fitted::{fitted_mountings, fitted_targets};
-use super::setup::Setup;
 use super::solve::Solved;
+use super::{Setup, unknowns_of};
 
 /// Number of configurations at which effects are evaluated.
 const SAMPLES: usize = 100;

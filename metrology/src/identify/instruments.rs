@@ -5,10 +5,9 @@ use abbe::identify::{Failure, Fit, Model, Options, VarianceComponent, variance_c
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
-use super::options::Settings;
 use super::priors::fit_with_places;
-use super::setup::Setup;
 use super::solve::diagnose;
+use super::{Settings, Setup};
 use crate::data::{Data, Map};
 use abbe_study::mistake;
 use abbe_study::number::digits;

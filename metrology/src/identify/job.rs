@@ -7,9 +7,8 @@ use std::collections::HashSet;
 
 use abbe::identify::{Configurations, Distances, Failure, Selection, drift};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::TEST;
+use abbe_spec::{Diagnostics, Spec};
 use abbe_study::{Machine, Notes, finite, mistake};
 
 use super::alternatives::{Explanations, target_on_axis};
@@ -22,10 +21,7 @@ use super::choose::{Chosen, choose};
 use super::compare::{compare, refuse_worse};
 use super::complete_fit::FitInput;
 use super::derived::{Derived, derived, has_one_station, with_columns, with_inputs};
-use super::families::{Family, Harmonics};
 use super::found_covariance::FoundCovariance;
-use super::found_model::FoundModel;
-use super::indistinguishable::indistinguishable;
 use super::instruments::{InstrumentFit, instrument_and_coordinate_fits, unequal_note};
 use super::known_distances::known_distance_fits;
 use super::options::{LOSSES, ONLY, Settings, family_name};
@@ -34,17 +30,14 @@ use super::plausibility::{check_lengths, sum_note, tool_note};
 use super::point_residuals::points;
 use super::profiles::{FoundProfiles, find_profiles};
 use super::read_back::{ReadBack, not_read_back, read_back};
-use super::report::{
-    Certainty, Counts, CrossValidation, LeftOut, Parameter, Report, ResidualDrift, TermGain,
-    TestExtrapolation, WeaklyDetermined,
-};
-use super::row_notes::RowNotes;
-use super::scale::scale_note;
-use super::setup::Setup;
 use super::solve::Solved;
-use super::terms::Term;
 use super::unexplained::unexplained;
 use super::unread::comparable;
+use super::{
+    Certainty, Counts, CrossValidation, Family, FoundModel, Harmonics, LeftOut, Parameter, Report,
+    ResidualDrift, RowNotes, Setup, Term, TermGain, TestExtrapolation, WeaklyDetermined, indistinguishable,
+    scale_note,
+};
 use crate::data::{Data, Map, Summary, hash};
 use crate::{Acceptance, Judged};
 

@@ -1,16 +1,12 @@
 //! Writes the map of the identified machine: the map of the data with the identified placement and
 //! the inputs derived from rows.
 
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::{Item, Section};
 use abbe_spec::edit::write::{lines, list, number, quantity, quoted};
 use abbe_spec::edit::{Edits, TableText};
+use abbe_spec::{Diagnostics, Item, Section, Spec};
 
 use super::derived::with_inputs;
-use super::found_model::FoundModel;
-use super::found_placement::{FoundPlacement, PlacementAtStation};
-use super::instruments::InstrumentFit;
+use super::{FoundModel, FoundPlacement, InstrumentFit, PlacementAtStation};
 use crate::data::{Map, TargetFrame, UNKNOWN, quaternion};
 use abbe_study::number::digits;
 

@@ -6,8 +6,7 @@ use std::time::Duration;
 
 use abbe::identify::Loss;
 
-use super::families::Family;
-use super::priors::Prior;
+use super::{Family, Prior};
 use abbe_study::options::{Choices, NumericOption, share};
 
 /// Number of parts for cross-validation.

@@ -5,9 +5,8 @@ use abbe_spec::Spec;
 
 use super::as_joint_errors::AsJointErrors;
 use super::extended::OwnMagnitude;
-use super::report::{Kind, Magnitude, MagnitudeSum, Pair, Parameter, Redundant};
-use super::setup::Setup;
 use super::solve::Solved;
+use super::{Kind, Magnitude, MagnitudeSum, Pair, Parameter, Redundant, Setup};
 use abbe_study::IsoAxis;
 use abbe_study::number::digits;
 

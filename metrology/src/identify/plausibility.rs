@@ -6,8 +6,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::PRIOR;
 
 use super::interpretation_check::{ROWS, subsample};
-use super::priors::Prior;
-use super::setup::Setup;
+use super::{Prior, Setup};
 use crate::data::{Data, Map};
 use abbe_study::{Notes, mistake, number};
 

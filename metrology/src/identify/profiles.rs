@@ -13,18 +13,14 @@ use abbe::identify::{
     fit_profiles,
 };
 use abbe_interpreter::Interpreter;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::{Expression, Symbol};
-use abbe_spec::{ChainNumber, Deviation, DeviationCause, Source, Spec, Variable};
+use abbe_spec::{ChainNumber, Deviation, DeviationCause, Diagnostics, Source, Spec, Variable};
 
 use super::as_joint_errors::number_terms;
 use super::complete_fit::FitInput;
-use super::families::Family;
-use super::joint_profiles::{JointProfile, JointProfiles};
 use super::profile_table::{ProfileTable, table_name};
-use super::setup::Setup;
 use super::solve::{Solved, solve};
-use super::terms::ErrorSite;
+use super::{ErrorSite, Family, JointProfile, JointProfiles, Setup};
 use abbe_study::number::digits;
 use abbe_study::{Notes, mistake};
 

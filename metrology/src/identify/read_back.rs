@@ -5,12 +5,9 @@ use std::path::Path;
 
 use abbe::identify::{Failure, Figures};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 
-use super::derived::Derived;
-use super::found_model::FoundModel;
-use super::setup::Setup;
+use super::{Derived, FoundModel, Setup};
 use crate::data::{Data, Map, change_with_reference};
 use abbe_study::{Machine, mistake, number};
 

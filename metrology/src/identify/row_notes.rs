@@ -13,8 +13,7 @@ use abbe_spec::option::{ROBUST_TUKEY, STATION_NEW};
 use abbe_study::number::{digits, length, percent};
 
 use super::fitted::{fitted_mountings, fitted_targets};
-use super::priors::Prior;
-use super::setup::Setup;
+use super::{Prior, Setup};
 use crate::data::Data;
 
 /// Probability by chance up to which a place counts as moved.

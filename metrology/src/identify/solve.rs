@@ -7,12 +7,9 @@ use abbe_spec::expr::Motion;
 use abbe_spec::option::{ONLY_PLACEMENT, ROBUST_TUKEY};
 
 use super::extended::OwnMagnitude;
-use super::joint_profiles::JointProfiles;
-use super::options::Settings;
 use super::priors::{Prior, fit_with_places};
 use super::row_notes::outlier_warning;
-use super::setup::Setup;
-use super::terms::{Basis, ErrorSite, Term};
+use super::{Basis, ErrorSite, JointProfiles, Settings, Setup, Term};
 use crate::data::Data;
 use abbe_study::number::digits;
 use abbe_study::{Notes, mistake};

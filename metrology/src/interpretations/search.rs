@@ -4,13 +4,12 @@ use abbe::analysis::sampling::norm;
 use abbe::{Error, Pose, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::change::Change;
-use super::interpretation::Interpretation;
 use super::joints::{JointUnits, Length, configurations, joint_values};
 use super::observed::{Observed, spread};
 use super::pose_residual::{PoseResidual, squares};
 use super::registration::registered;
 use super::zeros::{ZeroForm, minimum};
+use super::{Change, Interpretation};
 use abbe_study::{Notes, mistake};
 
 /// Lever of angles, as a share of the spread of the positions.

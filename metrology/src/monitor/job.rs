@@ -10,10 +10,9 @@ use serde::Serialize;
 
 use super::charts::{Chart, Limit, charts};
 use super::check_values::CheckValues;
-use super::checks::Checks;
 use super::finding::{Finding, finding};
-use super::options::Settings;
 use super::single_errors::SingleErrors;
+use super::{Checks, Settings};
 use crate::data::{Map, Summary};
 
 /// Monitoring of a machine by repeated checks.

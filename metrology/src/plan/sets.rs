@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 
 use abbe::analysis::{Axis, Configuration, Workspace, joint_grid};
 use abbe::{Error, Manipulator};
-use abbe_spec::document::Section;
-use abbe_spec::{Diagnostic, Diagnostics, Spec};
+use abbe_spec::{Diagnostic, Diagnostics, Section, Spec};
 use serde::Serialize;
 
 use super::keys;

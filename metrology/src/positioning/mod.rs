@@ -8,15 +8,13 @@ use abbe_spec::option::{NamedOption, READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use std::path::Path;
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
+use abbe_spec::{Diagnostics, Document};
 use serde::Serialize;
 
 use crate::data::{Runs, Source, Table, TargetRuns, runs};
-use abbe_study::notes::Notes;
-use abbe_study::{finite, mistake};
+use abbe_study::{Notes, finite, mistake};
 
 pub use evaluation::{
     ApproachResult, Bidirectional, Characteristic, Evaluation, InstrumentUncertainty, PositionResult,
