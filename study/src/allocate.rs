@@ -4,12 +4,9 @@ use abbe::analysis::{Sweepable, Workspace};
 use abbe_spec::Diagnostics;
 
 use crate::analyze::{self, Analyze, Verdict};
-use crate::changes::Changes;
 use crate::factors::Factors;
-use crate::machine::Machine;
-use crate::mistake;
-use crate::notes::Notes;
 use crate::study_file::{Criterion, Study};
+use crate::{Changes, Machine, Notes, mistake};
 
 pub use crate::factors::{AllocatedSource, Report, printed};
 

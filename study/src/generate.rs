@@ -8,10 +8,8 @@ use abbe_spec::value::find_name;
 use abbe_spec::{Diagnostics, Document, Spec, check_name};
 
 pub use crate::archive::archive;
-use crate::machine::Machine;
-use crate::mistake;
-use crate::notes::Notes;
 use crate::options::Choices;
+use crate::{Machine, Notes, mistake};
 
 /// Job of `abbe generate`: writes the code of a manipulator.
 #[derive(Clone)]

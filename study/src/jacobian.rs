@@ -13,10 +13,7 @@ use abbe_spec::value::parse_value;
 use abbe_spec::{Diagnostic, Diagnostics, Document, Spec, Variable};
 use serde::Serialize;
 
-use crate::finite::finite;
-use crate::machine::Machine;
-use crate::notes::Notes;
-use crate::{number, open_loops};
+use crate::{Machine, Notes, finite, number, open_loops};
 
 /// Job of `abbe jacobian`: evaluates `J_e` and `ε` at one configuration.
 #[derive(Clone)]

@@ -5,8 +5,7 @@ use abbe_manipulators::{MECHANISMS, SHIPPED};
 use abbe_spec::{Diagnostics, Spec};
 use serde::Serialize;
 
-use crate::machine::Machine;
-use crate::notes::Notes;
+use crate::{Machine, Notes};
 
 /// Job of `abbe list`: lists the shipped manipulators.
 #[derive(Clone, Copy, Debug, Default)]

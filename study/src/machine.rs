@@ -14,10 +14,8 @@ use abbe_spec::option::{NamedOption, option};
 use abbe_spec::{Diagnostics, Document, Factor, Magnitude, Source, Spec};
 
 use crate::calibration::{calibration_errors, has_magnitude};
-use crate::changes::Changes;
 use crate::table_paths::with_table_paths;
-use crate::{mistake, open_loops};
-use crate::{named, number};
+use crate::{Changes, mistake, named, number, open_loops};
 
 /// Spec of a manipulator, with its generated code and study if it is a shipped one.
 #[derive(Clone)]

@@ -9,11 +9,7 @@ use abbe_spec::Diagnostics;
 use super::parts::shard::Shard;
 use super::report::Report;
 use super::sweep::{AnalysisSweep, PartialAnalysis};
-use crate::changes::Changes;
-use crate::machine::Machine;
-use crate::notes::Notes;
-use crate::study_file::Study;
-use crate::{mistake, number};
+use crate::{Changes, Machine, Notes, Study, mistake, number};
 
 /// Job of `abbe analyze`: evaluates each error source over the workspace of a study.
 #[derive(Clone)]

@@ -12,22 +12,16 @@ use serde::{Deserialize, Serialize};
 
 use super::errors_with_parts::LargestWithParts;
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
-use super::first_order::FirstOrder;
 use super::report::{
     AfterCompensation, CombinedReport, Comparison, CompensationBasis, ErrorSites, Ledger, MonteCarloErrors,
     MonteCarloReport, OrientationReport, RemainingErrors, Report, SEED, SourceReport, UncertaintyBudget,
 };
-use super::unreachable;
-use super::unreachable::LoopCondition;
+use super::{FirstOrder, LoopCondition, unreachable};
 use crate::bound::CertifiedNorms;
 use crate::calibration::named_as_one;
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
-use crate::finite::finite;
-use crate::machine::Machine;
-use crate::notes::Notes;
-use crate::study_file::Study;
 use crate::workspace::Form;
-use crate::{RunRecord, mistake, number};
+use crate::{Machine, Notes, RunRecord, Study, finite, mistake, number};
 
 /// Largest number of configurations that are checked for extrapolation.
 const EXTRAPOLATED: usize = 2000;

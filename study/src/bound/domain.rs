@@ -11,11 +11,8 @@ use abbe_spec::expr::Symbol;
 use abbe_spec::{Diagnostics, Spec};
 use indexmap::IndexMap;
 
-use crate::machine::Machine;
-use crate::mistake;
-use crate::number;
-use crate::study_file::Study;
 use crate::workspace::Span;
+use crate::{Machine, Study, mistake, number};
 
 /// Largest number of names that may move. The search for the worst case moves two more.
 const MOST_NAMES: usize = MOST_MOVING - DIRECTION.len();

@@ -20,10 +20,7 @@ use abbe_codegen::graph::Graph;
 use abbe_spec::Diagnostics;
 use serde::Serialize;
 
-use crate::changes::Changes;
-use crate::machine::Machine;
-use crate::notes::Notes;
-use crate::study_file::Study;
+use crate::{Changes, Machine, Notes, Study};
 use domain::Domain;
 use report::Classes;
 

@@ -12,8 +12,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Diagnostics;
 use serde::Serialize;
 
-use crate::notes::Notes;
-use crate::number;
+use crate::{Notes, number};
 
 /// Seed of the sampled configurations.
 const SEED: u64 = 1;

@@ -21,10 +21,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::{Diagnostics, Spec};
 use serde::Serialize;
 
-use crate::finite;
-use crate::iso230::IsoAxis;
-use crate::machine::Machine;
-use crate::notes::Notes;
+use crate::{IsoAxis, Machine, Notes, finite};
 
 pub use angles::Warning;
 pub use chain::{Chain, Dh, Link};

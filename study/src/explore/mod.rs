@@ -20,8 +20,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::{Diagnostics, Spec};
 
 use crate::analyze::Analyze;
-use crate::notes::Notes;
-use crate::{Machine, Residuals, Study, finite, mistake};
+use crate::{Machine, Notes, Residuals, Study, finite, mistake};
 
 /// Functions of the generated code that a page calls, if the manipulator has them.
 const FUNCTIONS: [&str; 6] =

@@ -12,10 +12,8 @@ use abbe_exchange::export::RealMachine;
 use abbe_spec::Diagnostics;
 use abbe_spec::option::{TO_LINUXCNC_GENHEXKINS, TO_URDF};
 
-use crate::finite;
-use crate::machine::Machine;
-use crate::notes::Notes;
 use crate::number::digits;
+use crate::{Machine, Notes, finite};
 
 /// Job that writes a machine with its repeatable errors in another format.
 #[derive(Clone)]

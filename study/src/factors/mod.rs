@@ -13,12 +13,10 @@ use abbe_spec::option::{NamedOption, option};
 use abbe_spec::{Diagnostics, Source, Spec};
 use serde::Serialize;
 
-use crate::finite::finite;
 use crate::machine::{Machine, followed_source};
-use crate::notes::Notes;
 use crate::number::{Named, decimals, percent, rounded_down};
 use crate::study_file::{Criterion, JudgedMachine, Study};
-use crate::{mistake, number};
+use crate::{Notes, finite, mistake, number};
 
 /// Largest number of exceeding configurations that are added after a sweep.
 const ADDED: usize = 1000;

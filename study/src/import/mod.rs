@@ -12,8 +12,7 @@ use abbe_exchange::{dh, urdf};
 use abbe_spec::option::{DH_MODIFIED, DH_STANDARD};
 use abbe_spec::{Diagnostics, Document};
 
-use crate::mistake;
-use crate::notes::Notes;
+use crate::{Notes, mistake};
 
 /// Job that writes the spec of a robot in another format.
 #[derive(Clone, Debug)]

@@ -12,10 +12,8 @@ use super::figure::read_figures;
 use super::study::{PROBABILITY, Study, read_allocation, read_compensated, read_published};
 use super::tolerance::{self, Tolerance};
 use super::{compensation, keys};
-use crate::changes::{Changes, find_symbol};
-use crate::machine::Machine;
-use crate::named;
 use crate::workspace::{Region, constant, read_region};
+use crate::{Changes, Machine, find_symbol, named};
 
 impl Study {
     /// Returns the study in `file`; or else the one [beside the spec](Self::beside), the one

@@ -11,10 +11,7 @@ use abbe_spec::value::find_name;
 use abbe_spec::{Diagnostic, Diagnostics, Item, Section, Spec};
 use serde::Serialize;
 
-use super::choices::{CombinedFigure, Criterion, JudgedMachine, Metric};
-use super::compensation::Compensated;
-use super::figure::Figure;
-use super::{keys, tolerance};
+use super::{CombinedFigure, Compensated, Criterion, Figure, JudgedMachine, Metric, keys, tolerance};
 use crate::changes::Changes;
 use crate::workspace::{Region, constant, positive};
 

@@ -4,9 +4,8 @@ use abbe::Description;
 use abbe::analysis::{Configuration, Row, Sweepable, sweep};
 use abbe_spec::{Diagnostics, Spec};
 
-use super::figure::{Figure, FigureData, Figures};
 use super::figure_builder::{FigureBuilder, PartialFigure};
-use super::stick::Stick;
+use super::{Figure, FigureData, Figures, Stick};
 use crate::mistake;
 use crate::study_file::{Content, Study};
 

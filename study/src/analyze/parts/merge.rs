@@ -8,8 +8,7 @@ use abbe_spec::Diagnostics;
 use super::part::{Build, Part};
 use super::shard::Shard;
 use crate::analyze::{Analyze, Report};
-use crate::mistake;
-use crate::notes::Notes;
+use crate::{Notes, mistake};
 
 /// All parts of an analysis, with its job.
 pub struct Merge {

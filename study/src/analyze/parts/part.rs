@@ -13,9 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::request::{self, AnalysisRequest};
 use super::shard::Shard;
 use crate::analyze::sweep::PartialAnalysis;
-use crate::finite::finite;
-use crate::notes::Notes;
-use crate::{hash, mistake};
+use crate::{Notes, finite, hash, mistake};
 
 /// Data gathered over a share of a workspace, with the question that they belong to.
 ///

@@ -9,12 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::analyze::Analyze;
 use crate::analyze::options::DRAWS;
-use crate::changes::Changes;
-use crate::hash;
-use crate::machine::Machine;
-use crate::mistake;
-use crate::notes::Notes;
-use crate::study_file::Study;
+use crate::{Changes, Machine, Notes, Study, hash, mistake};
 
 /// Largest size of all files that a part carries, in bytes.
 const LARGEST: u64 = 512 << 20;
