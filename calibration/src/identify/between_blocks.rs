@@ -15,8 +15,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linearize::{linearize, with_priors};
-use super::{Configurations, Failure, Fit, Folds, Model, Observation, f_beyond};
+use super::{Configurations, Failure, Fit, Folds, Model, Observation, f_beyond, linearize, with_priors};
 use abbe_analysis::in_order;
 
 /// Variance of a fit between blocks.

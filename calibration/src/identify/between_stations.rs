@@ -15,8 +15,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::triangle::Triangle;
-use super::{Failure, Fit, Model, Observation};
+use super::{Failure, Fit, Model, Observation, Triangle};
 
 /// Smallest and largest τ that are tried, and their number on a logarithmic scale.
 const SMALLEST: f64 = 1e-6;

@@ -33,10 +33,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DMatrixView, DVector, DVectorView};
 
-use super::linearize::by_blocks;
-use super::solver::Solver;
-use super::triangle::Triangle;
-use super::{Configurations, Failure, Measurement, f_test};
+use super::{Configurations, Failure, Measurement, Solver, Triangle, by_blocks, f_test};
 use abbe_analysis::decompose::symmetric_eigen;
 
 /// Independence assumption of a covariance.

@@ -2,8 +2,9 @@
 
 use core::borrow::Borrow;
 
-use super::linearize::by_blocks;
-use super::{Camera, Distances, EvaluatedModel, Failure, Figures, Measurement, Model, Observation};
+use super::{
+    Camera, Distances, EvaluatedModel, Failure, Figures, Measurement, Model, Observation, by_blocks,
+};
 use abbe_analysis::sampling;
 use abbe_analysis::sampling::vectors::subtract as difference;
 use abbe_core::Pose;

@@ -13,8 +13,7 @@ use core::borrow::Borrow;
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 
-use super::linearize::by_blocks;
-use super::{Configurations, Failure, Model, Observation};
+use super::{Configurations, Failure, Model, Observation, by_blocks};
 use abbe_analysis::sampling::{norm, stream};
 
 /// Correlation of residuals with time.

@@ -5,8 +5,7 @@ use nalgebra::DMatrix;
 use super::clustered::{Independent, Known};
 use super::identifiable::Columns;
 use super::prior::Basis;
-use super::solver::Solver;
-use super::{Configurations, Failure, Identifiable, Loss, Model, Observation, Unknown, identifiable};
+use super::{Configurations, Failure, Identifiable, Loss, Model, Observation, Solver, Unknown, identifiable};
 
 /// Observations with a smaller weight count as rejected.
 pub(super) const REJECTED: f64 = 0.05;

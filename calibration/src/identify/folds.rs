@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::fit::REJECTED;
-use super::linearize::{push_distances, with_priors};
-use super::triangle::{Problem, Triangle};
-use super::{Configurations, Distances, Failure, Fit, Model, Observation};
+use super::{
+    Configurations, Distances, Failure, Fit, Model, Observation, Problem, REJECTED, Triangle, push_distances,
+    with_priors,
+};
 use abbe_analysis::in_order;
 use abbe_analysis::sampling::{halton, range_of};
 

@@ -8,8 +8,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linearize::linearize;
-use super::{Failure, Model, Observation, Unknown};
+use super::{Failure, Model, Observation, Unknown, linearize};
 use abbe_analysis::decompose::singular_values;
 
 /// Relative threshold of the singular values of the matrix with columns of unit length; smaller

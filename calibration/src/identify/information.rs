@@ -5,8 +5,7 @@ use core::convert::Infallible;
 use nalgebra::allocator::Allocator;
 use nalgebra::{Cholesky, Const, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
-use super::linearize::by_blocks;
-use super::{EvaluatedModel, Failure, Measurement, Model, Observation};
+use super::{EvaluatedModel, Failure, Measurement, Model, Observation, by_blocks};
 use abbe_analysis::decompose::symmetric_eigen;
 use abbe_analysis::in_order;
 

@@ -3,8 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::triangle::{Problem, Triangle};
-use super::{EvaluatedModel, Failure, Model, Observation};
+use super::{EvaluatedModel, Failure, Model, Observation, Problem, Triangle};
 use abbe_analysis::in_order;
 
 /// Accumulates residuals and derivatives of all observations and known distances at `x`, with

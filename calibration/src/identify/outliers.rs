@@ -8,11 +8,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::clustered::Known;
-use super::fit::REJECTED;
-use super::linearize::by_blocks;
 use super::robust::robust_scale_after;
-use super::solver::{Residuals, Solver};
-use super::{Configurations, Failure, Folds, Loss, Observation, Options, f_beyond};
+use super::{
+    Configurations, Failure, Folds, Loss, Observation, Options, REJECTED, Residuals, Solver, by_blocks,
+    f_beyond,
+};
 
 /// Probability that any good row is rejected.
 const CHANCE: f64 = 0.01;

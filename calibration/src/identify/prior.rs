@@ -12,9 +12,9 @@ use abbe_core::{Component, Pose};
 use nalgebra::DMatrix;
 
 use super::identifiable::{Columns, by_preference};
-use super::solver::Solver;
-use super::triangle::Problem;
-use super::{Failure, Measurement, Model, Observation, Station, Uncertainty, Unknown, Values};
+use super::{
+    Failure, Measurement, Model, Observation, Problem, Solver, Station, Uncertainty, Unknown, Values,
+};
 
 /// Number of configurations at which poses are compared.
 const CONFIGURATIONS: usize = 60;

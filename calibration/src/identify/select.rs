@@ -17,9 +17,8 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::fit::REJECTED;
 use super::statistics::Scores;
-use super::{FTest, Failure, Fit, Folds, Model, Observation};
+use super::{FTest, Failure, Fit, Folds, Model, Observation, REJECTED};
 
 /// A term: an unknown of the model times a factor that changes from row to row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,9 +12,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linearize::{by_blocks, linearize, with_priors};
-use super::triangle::Problem;
-use super::{EvaluatedModel, Failure, Loss, Model, Observation};
+use super::{EvaluatedModel, Failure, Loss, Model, Observation, Problem, by_blocks, linearize, with_priors};
 
 /// State of a fit.
 #[derive(Clone)]

@@ -1,7 +1,6 @@
 //! Variance components: the actual uncertainty of each instrument, from its residuals in a fit.
 
-use super::linearize::{linearize, with_priors};
-use super::{Failure, Fit, Measurement, Model, Observation};
+use super::{Failure, Fit, Measurement, Model, Observation, linearize, with_priors};
 
 /// Variance component of one instrument, or of positions or rotations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -27,8 +27,7 @@ use core::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::fit::REJECTED;
-use super::{Distances, Failure, Fit, Folds, Model, Observation};
+use super::{Distances, Failure, Fit, Folds, Model, Observation, REJECTED};
 use abbe_analysis::in_order;
 
 use basis::Centered;

@@ -5,8 +5,7 @@ use core::ops::Range;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::basis::Centered;
-use crate::identify::fit::REJECTED;
-use crate::identify::{Failure, Fit, Folds, Model, Observation};
+use crate::identify::{Failure, Fit, Folds, Model, Observation, REJECTED};
 use abbe_analysis::in_order;
 
 /// Rows that are added to the sums together, and columns that are eliminated together.
