@@ -3,8 +3,7 @@
 use abbe::identify::{BetweenBlocks, Failure, Folds, between_blocks};
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::complete_fit::BLOCKS;
-use super::solve::{Solved, diagnose};
+use super::{BLOCKS, Solved, diagnose};
 use crate::data::Data;
 use abbe_study::number::digits;
 

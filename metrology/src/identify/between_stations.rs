@@ -4,8 +4,7 @@
 use abbe::identify::{Failure, between_stations};
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::solve::Solved;
-use super::{Prior, Setup};
+use super::{Prior, Setup, Solved};
 use crate::data::Data;
 use abbe_study::mistake;
 use abbe_study::number::{self, digits};

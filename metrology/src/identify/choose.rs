@@ -6,9 +6,9 @@ use abbe::identify::{CandidateTerms, Folds, Model, ModelTerm, Observation, Selec
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::complete_fit::{Assessed, FitInput};
-use super::solve::{Solved, diagnose, solve};
-use super::{Basis, ErrorSite, Stages, Term, extended, own_magnitudes};
+use super::{
+    Assessed, Basis, ErrorSite, FitInput, Solved, Stages, Term, diagnose, extended, own_magnitudes, solve,
+};
 use abbe_study::Notes;
 
 /// Probability of accepting a term by chance, over all stages.

@@ -5,8 +5,7 @@ use abbe::identify::Model;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::TERMS;
 
-use super::solve::Solved;
-use super::{Compared, Setup};
+use super::{Compared, Setup, Solved};
 use crate::data::Data;
 use abbe_study::{mistake, number};
 

@@ -6,8 +6,10 @@ use abbe_spec::{Diagnostics, Spec};
 
 use super::as_joint_errors::number_terms;
 use super::instruments::estimate;
-use super::solve::{Solved, diagnose, solve};
-use super::{Settings, Setup, Term, check_interpretation, check_plausibility, extended, own_magnitudes};
+use super::{
+    Settings, Setup, Solved, Term, check_interpretation, check_plausibility, diagnose, extended,
+    own_magnitudes, solve,
+};
 use crate::data::{Data, Map};
 use abbe_study::{Notes, mistake};
 

@@ -18,10 +18,8 @@ use abbe::identify::{Failure, Measurement, Model, Observation, Unknown};
 use abbe::{Component, Error, Pose, Quantity};
 use nalgebra::{DMatrix, RowDVector, SymmetricEigen};
 
-use super::as_joint_errors::AsJointErrors;
 use super::fitted::{fitted_mountings, fitted_targets};
-use super::solve::Solved;
-use super::{Setup, unknowns_of};
+use super::{AsJointErrors, Setup, Solved, unknowns_of};
 
 /// Number of configurations at which effects are evaluated.
 const SAMPLES: usize = 100;

@@ -6,8 +6,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use super::priors::fit_with_places;
-use super::solve::diagnose;
-use super::{Settings, Setup};
+use super::{Settings, Setup, diagnose};
 use crate::data::{Data, Map};
 use abbe_study::mistake;
 use abbe_study::number::digits;

@@ -12,14 +12,12 @@ use abbe_spec::{Diagnostics, Spec};
 use abbe_study::{Machine, Notes, finite, mistake};
 
 use super::alternatives::{Explanations, target_on_axis};
-use super::as_joint_errors::AsJointErrors;
 use super::between_blocks::include_between_blocks;
 use super::between_stations::include_between_stations;
 use super::candidates::competing;
 use super::chain_numbers::leg_terms;
 use super::choose::{Chosen, choose};
 use super::compare::{compare, refuse_worse};
-use super::complete_fit::FitInput;
 use super::derived::{Derived, derived, has_one_station, with_columns, with_inputs};
 use super::found_covariance::FoundCovariance;
 use super::instruments::{InstrumentFit, instrument_and_coordinate_fits, unequal_note};
@@ -30,13 +28,12 @@ use super::plausibility::{check_lengths, sum_note, tool_note};
 use super::point_residuals::points;
 use super::profiles::{FoundProfiles, find_profiles};
 use super::read_back::{ReadBack, not_read_back, read_back};
-use super::solve::Solved;
 use super::unexplained::unexplained;
 use super::unread::comparable;
 use super::{
-    Certainty, Counts, CrossValidation, Family, FoundModel, Harmonics, LeftOut, Parameter, Report,
-    ResidualDrift, RowNotes, Setup, Term, TermGain, TestExtrapolation, WeaklyDetermined, indistinguishable,
-    scale_note,
+    AsJointErrors, Certainty, Counts, CrossValidation, Family, FitInput, FoundModel, Harmonics, LeftOut,
+    Parameter, Report, ResidualDrift, RowNotes, Setup, Solved, Term, TermGain, TestExtrapolation,
+    WeaklyDetermined, indistinguishable, scale_note,
 };
 use crate::data::{Data, Map, Summary, hash};
 use crate::{Acceptance, Judged};

@@ -17,10 +17,8 @@ use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::{ChainNumber, Deviation, DeviationCause, Diagnostics, Source, Spec, Variable};
 
 use super::as_joint_errors::number_terms;
-use super::complete_fit::FitInput;
 use super::profile_table::{ProfileTable, table_name};
-use super::solve::{Solved, solve};
-use super::{ErrorSite, Family, JointProfile, JointProfiles, Setup};
+use super::{ErrorSite, Family, FitInput, JointProfile, JointProfiles, Setup, Solved, solve};
 use abbe_study::number::digits;
 use abbe_study::{Notes, mistake};
 

@@ -5,9 +5,8 @@ use abbe_spec::Spec;
 use abbe_spec::edit::TableText;
 use abbe_spec::edit::write::{number, quantity};
 
-use super::solve::Solved;
 use super::spec_writer::DIGITS;
-use super::{FoundModel, Setup};
+use super::{FoundModel, Setup, Solved};
 use abbe_study::calibration::random_sources;
 
 /// Normal quantile `Φ⁻¹(0.95)`.
