@@ -83,6 +83,8 @@ mod residuals;
 mod run_record;
 mod table_paths;
 
+use closing::Closing;
+
 pub use abbe_spec::notes::Notes;
 pub use abbe_spec::{mistake, notes};
 pub use changes::{Changes, changed_text, find_symbol};
