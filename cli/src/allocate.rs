@@ -7,9 +7,8 @@ use abbe_study::{Changes, allocate, changed_text};
 use clap::Args;
 
 use crate::arguments::{Common, Subject, study};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, quoted};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

@@ -10,9 +10,7 @@ use abbe_study::bound::options::{BOXES, Gap};
 use clap::Args;
 
 use crate::arguments::{Running, Showing, Subject, duration, study, whole};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::Outcome;
+use crate::{Console, Failure, Outcome};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

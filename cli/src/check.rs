@@ -5,9 +5,8 @@ use abbe_study::{Notes, check};
 use clap::Args;
 
 use crate::arguments::{Showing, Subject};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, quoted};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

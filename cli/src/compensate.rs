@@ -11,9 +11,8 @@ use abbe_spec::Spec;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Common, Page, Subject, length};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

@@ -3,8 +3,7 @@
 use clap::{Args, Command};
 use clap_complete::Shell;
 
-use crate::failure::Failure;
-use crate::output::Outcome;
+use crate::{Failure, Outcome};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

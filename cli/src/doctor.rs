@@ -12,9 +12,7 @@ use abbe_study::Notes;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Showing, Subject, Writing};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Failure, Outcome, Outputs};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

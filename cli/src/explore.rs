@@ -10,9 +10,8 @@ use abbe_study::{Machine, Reads};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Changes, Writing, study};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, is_stdout, json, note};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

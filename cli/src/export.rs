@@ -9,9 +9,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Showing, Subject, Writing, whole};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Failure, Outcome, Outputs};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

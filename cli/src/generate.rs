@@ -8,9 +8,8 @@ use abbe_study::generate::{self, Fmi, Language, Real, archive};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Writing, named};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, note};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

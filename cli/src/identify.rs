@@ -15,9 +15,8 @@ use abbe_spec::Spec;
 use clap::Args;
 
 use crate::arguments::{Measured, Page, Running, Showing, Subject, Writing, duration, named, whole};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, Pending, note};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

@@ -9,9 +9,8 @@ use abbe_study::options::CONVENTIONS;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Writing, named};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, json};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

@@ -5,9 +5,8 @@ use abbe_study::jacobian;
 use clap::Args;
 
 use crate::arguments::Subject;
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, json};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

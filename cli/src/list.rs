@@ -4,9 +4,8 @@ use abbe_report::text;
 use abbe_study::list;
 use clap::Args;
 
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, json};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!("  abbe list

@@ -41,8 +41,9 @@ use std::process::ExitCode;
 use abbe_report::text::at_width;
 use clap::{CommandFactory, Parser, Subcommand};
 
+use console::Console;
 use failure::Failure;
-use output::Outcome;
+use output::{Outcome, Outputs};
 
 /// Predict, rank and check the position errors of a manipulator from its spec
 ///

@@ -10,9 +10,7 @@ use abbe_spec::Spec;
 use clap::{Args, ValueEnum};
 
 use crate::arguments::{Common, Dated, Measured, Subject};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Failure, Outcome, Outputs};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

@@ -9,9 +9,8 @@ use clap::{Args, ValueHint};
 
 use crate::analyze::{self, Files, VaryingColumns};
 use crate::arguments::{Common, Dated};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, note};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

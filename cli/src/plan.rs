@@ -10,9 +10,7 @@ use abbe_report::views;
 use clap::Args;
 
 use crate::arguments::{Common, Subject, length, named, study, whole};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Failure, Outcome, Outputs};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

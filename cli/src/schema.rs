@@ -4,8 +4,7 @@ use abbe_metrology::schema::FileKind;
 use clap::Args;
 
 use crate::arguments::named;
-use crate::failure::Failure;
-use crate::output::Outcome;
+use crate::{Failure, Outcome};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

@@ -9,9 +9,8 @@ use abbe_metrology::simulate::{self, Places};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Running, Subject, Writing, length, share, whole};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write, json};
+use crate::{Console, Failure};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

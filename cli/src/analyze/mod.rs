@@ -20,9 +20,8 @@ use abbe_study::jacobian::read_joint_variables;
 use clap::Args;
 
 use crate::arguments::{Common, Dated, Showing, Subject, study, whole};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write, note};
+use crate::{Console, Failure};
 
 pub(crate) use files::{Files, VaryingColumns};
 
