@@ -12,8 +12,7 @@ use pyo3::types::{PyDict, PyFloat, PyInt, PyList, PyString};
 
 use crate::arrays::{empty, numbers, output_array, tuple};
 use crate::batch::{Argument, Batch, RejectedConfiguration};
-use crate::failure::{guarded, spec_error};
-use crate::machine::Machine;
+use crate::{Machine, guarded, spec_error};
 
 /// Number of configurations from which other Python threads may run during an evaluation.
 const MANY: usize = 32;

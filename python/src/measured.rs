@@ -8,8 +8,7 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyString, PyTuple};
 
-use crate::failure::{guarded, spec_error};
-use crate::machine::Machine;
+use crate::{Machine, guarded, spec_error};
 
 /// Rows of measurements.
 pub(crate) enum Measured {
