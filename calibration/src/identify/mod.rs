@@ -105,6 +105,7 @@ mod variance;
 #[cfg(test)]
 mod tests;
 
+use failure::Result;
 use fit::REJECTED;
 use linearize::{by_blocks, linearize, push_distances, with_priors};
 use solver::{Residuals, Solver};

@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
+use super::super::Result;
 use super::basis::Centered;
 use crate::identify::{Failure, Fit, Folds, Model, Observation, REJECTED};
 use abbe_analysis::in_order;
@@ -81,7 +82,7 @@ impl Normal {
         fit: &Fit,
         joints: &[Centered],
         folds: &Folds,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let kept = fit.identifiable.kept.clone();
         let mut starts = vec![kept.len()];
         for joint in joints {
