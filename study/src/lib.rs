@@ -4,7 +4,7 @@
 //! A **job** is a struct that holds its options and inputs, owned and plain, and has one function,
 //!
 //! ```text
-//! pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics>
+//! pub fn run(&self, notes: &mut dyn Notes) -> Result<Report>
 //! ```
 //!
 //! All jobs follow the same rules, so that the command, the Python module and tests call them
@@ -80,6 +80,7 @@ pub mod open_loops;
 mod reads;
 mod release;
 mod residuals;
+mod result;
 mod run_record;
 mod table_paths;
 
@@ -95,5 +96,6 @@ pub use machine::{Evaluator, Machine};
 pub use reads::Reads;
 pub use release::{set_version, version};
 pub use residuals::{Residual, Residuals};
+pub use result::Result;
 pub use run_record::{RunRecord, check_date};
 pub use study_file::Study;

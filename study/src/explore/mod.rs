@@ -17,10 +17,10 @@ use std::sync::Arc;
 use abbe::analysis::{Configuration, Subset, Workspace};
 use abbe_codegen::print::Language;
 use abbe_interpreter::Interpreter;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 
 use crate::analyze::Analyze;
-use crate::{Machine, Notes, Residuals, Study, finite, mistake};
+use crate::{Machine, Notes, Residuals, Result, Study, finite, mistake};
 
 /// Functions of the generated code that a page calls, if the manipulator has them.
 const FUNCTIONS: [&str; 6] =
@@ -51,7 +51,7 @@ impl Explore<'_> {
     }
 
     /// Generates the code and collects the data.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let machine = self.analysis.machine();
         let tunable = tunable(&machine.spec);
         let functions = Language::JavaScript.functions(&tunable);
@@ -109,7 +109,7 @@ fn options(named: impl IntoIterator<Item = (&'static str, String)>) -> Vec<Strin
 const COUNT: usize = 1000;
 
 /// Returns reachable configurations, evenly chosen.
-fn configurations(analysis: &Analyze) -> Result<Configurations, Diagnostics> {
+fn configurations(analysis: &Analyze) -> Result<Configurations> {
     let machine = analysis.machine();
     let manipulator = machine.evaluator(true);
     let region = &analysis.study().region;

@@ -8,12 +8,12 @@ use std::path::PathBuf;
 
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
-use abbe_spec::{Diagnostic, Diagnostics, Item, Section, Spec};
+use abbe_spec::{Diagnostic, Item, Section, Spec};
 use serde::Serialize;
 
 use super::{CombinedFigure, Compensated, Criterion, Figure, JudgedMachine, Metric, keys, tolerance};
-use crate::changes::Changes;
 use crate::workspace::{Region, constant, positive};
+use crate::{Changes, Result};
 
 /// Probability and yield that are required if a study states none.
 pub(super) const PROBABILITY: f64 = 0.95;
@@ -95,7 +95,7 @@ impl Study {
     /// # Errors
     ///
     /// Returns a mistake for a text that is no positive length or angle.
-    pub fn limit(&mut self, tolerances: &[String], spec: &Spec) -> Result<(), Diagnostics> {
+    pub fn limit(&mut self, tolerances: &[String], spec: &Spec) -> Result<()> {
         for (is_angle, value) in tolerance::parse(tolerances, spec.length)? {
             let limit = if is_angle { &mut self.orientation_tolerance } else { &mut self.tolerance };
             *limit = Some(value);

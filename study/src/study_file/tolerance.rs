@@ -4,10 +4,11 @@ use abbe::LengthUnit;
 use abbe_spec::expr::Dimension;
 use abbe_spec::option::{TOLERANCE, option};
 use abbe_spec::value::parse_value;
-use abbe_spec::{Diagnostic, Diagnostics, Document, Item};
+use abbe_spec::{Diagnostic, Document, Item};
 
 use super::choices::{JudgedMachine, MACHINES};
 use super::keys;
+use crate::Result;
 use crate::workspace::positive;
 
 /// Permitted errors of the tool.
@@ -29,7 +30,7 @@ pub(super) struct Tolerance {
 
 /// Parses limits given as options: a length limits the position error, an angle the orientation
 /// error. Returns each with `true` for an angle; there is at most one of each.
-pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f64)>, Diagnostics> {
+pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f64)>> {
     let mut limits: Vec<(bool, f64)> = Vec::new();
     for text in texts {
         let value = |dimension| {

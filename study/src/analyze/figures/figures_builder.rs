@@ -2,12 +2,12 @@
 
 use abbe::Description;
 use abbe::analysis::{Configuration, Row, Sweepable, sweep};
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 
 use super::figure_builder::{FigureBuilder, PartialFigure};
 use super::{Figure, FigureData, Figures, Stick};
-use crate::mistake;
 use crate::study_file::{Content, Study};
+use crate::{Result, mistake};
 
 /// Figures of a study while their data are gathered.
 pub(in crate::analyze) struct FiguresBuilder<'a> {
@@ -58,7 +58,7 @@ impl<'a> FiguresBuilder<'a> {
         manipulator: &dyn Sweepable,
         home: &Configuration,
         spec: &Spec,
-    ) -> Result<Figures, Diagnostics> {
+    ) -> Result<Figures> {
         let finish = |mut builder: FigureBuilder<'a>| {
             let own_workspace = sweep_own(&mut builder, manipulator, spec)?;
             let (request, bounds) = (builder.figure.clone(), builder.bounds);
@@ -82,7 +82,7 @@ fn sweep_own(
     builder: &mut FigureBuilder,
     manipulator: &dyn Sweepable,
     spec: &Spec,
-) -> Result<Option<[usize; 2]>, Diagnostics> {
+) -> Result<Option<[usize; 2]>> {
     let Some(region) = &builder.figure.region else { return Ok(None) };
     let workspace =
         region.workspace(manipulator, None).map_err(|error| mistake::whole(&spec.file, &error))?;

@@ -5,7 +5,6 @@
 use std::path::Path;
 
 use abbe::lanes::InstructionSet;
-use abbe_spec::Diagnostics;
 use abbe_spec::bounded::{Bounded, Contents, UnreadableFile};
 use abbe_spec::option::SHARD;
 use serde::{Deserialize, Serialize};
@@ -13,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::request::{self, AnalysisRequest};
 use super::shard::Shard;
 use crate::analyze::sweep::PartialAnalysis;
-use crate::{Notes, finite, hash, mistake};
+use crate::{Notes, Result, finite, hash, mistake};
 
 /// Data gathered over a share of a workspace, with the question that they belong to.
 ///
@@ -52,7 +51,7 @@ impl Build {
 
 impl Part {
     /// Sweeps a share of the workspace.
-    pub fn new(request: AnalysisRequest, shard: Shard, notes: &mut dyn Notes) -> Result<Self, Diagnostics> {
+    pub fn new(request: AnalysisRequest, shard: Shard, notes: &mut dyn Notes) -> Result<Self> {
         let job = request.job(&mut ())?;
         let refused = |message| mistake::with_help(&request.spec, message, "choose fewer draws");
         request.check_draws().map_err(refused)?;
@@ -100,7 +99,7 @@ impl Part {
     }
 
     /// Parses the output of [`to_bytes`](Self::to_bytes). Mistakes are reported under `name`.
-    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Diagnostics> {
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self> {
         let wrong = |message: &str, help: &str| mistake::with_help(name, message, help);
         let Some(rest) = bytes.strip_prefix(BEGINNING.as_bytes()) else {
             return Err(wrong("this is not a part of an analysis", &format!("`{SHARD}` writes one")));
@@ -135,7 +134,7 @@ impl Part {
     }
 
     /// Reads a part file.
-    pub fn read(path: &Path) -> Result<Self, Diagnostics> {
+    pub fn read(path: &Path) -> Result<Self> {
         let bytes = Bounded::read_all(path, LONGEST).map_err(|error| {
             let UnreadableFile { message, help } =
                 UnreadableFile::from_error(&error, "give the path of a part");
