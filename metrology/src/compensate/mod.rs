@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::data::{Base, Channel, Data, Heading, Layout, Map, Summary, Table, Unusable};
 use crate::running_sums::RunningSums;
 use abbe_study::extrapolation::{Extrapolation, ToolPointDeviation, warn_of_extrapolation};
-use abbe_study::{Evaluator, Machine, Notes, Residuals, RunRecord, finite, mistake, number};
+use abbe_study::{Evaluator, Machine, Notes, Residuals, Result, RunRecord, finite, mistake, number};
 
 use rows::{BaseFramePoses, Task};
 pub use rows::{CommandCorrector, CorrectedCommand, ErrorNorms, Row};
@@ -171,7 +171,7 @@ impl Compensate {
     }
 
     /// Corrects all rows and returns them in the report.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let mut rows = Vec::new();
         let report = self.for_each_row(notes, |row| {
             rows.push(row);
@@ -270,7 +270,7 @@ fn with_held_joints(spec: &Spec, map: &Map) -> (Spec, Vec<String>) {
 }
 
 /// Checks that a map describes poses in a known base frame.
-pub fn check_poses(map: &Map) -> Result<(), Diagnostics> {
+pub fn check_poses(map: &Map) -> Result<()> {
     let is_base_known = map.base != Base::Unknown || !map.stations.stated.is_empty();
     if matches!(map.layout, Layout::Pose(..)) && is_base_known {
         return Ok(());

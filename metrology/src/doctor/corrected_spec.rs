@@ -10,10 +10,11 @@ use std::path::Path;
 use abbe::VariableKind;
 use abbe_spec::edit::Edits;
 use abbe_spec::edit::write::quoted;
-use abbe_spec::{Diagnostics, Item, Spec};
+use abbe_spec::{Item, Spec};
 
 use super::job::Report;
 use crate::interpretations::{Change, words};
+use abbe_study::Result;
 use abbe_study::number::digits;
 
 /// Keys that place a frame or the tool.
@@ -26,7 +27,7 @@ impl Report {
     /// Returns the text of the spec according to the first interpretation. Returns `None` if that
     /// changes nothing in the spec, or cannot be expressed in its text. `path` is the file name of
     /// the result; paths of table files are resolved from there.
-    pub fn corrected(&self, spec: &Spec, text: &str, path: &str) -> Result<Option<String>, Diagnostics> {
+    pub fn corrected(&self, spec: &Spec, text: &str, path: &str) -> Result<Option<String>> {
         let changes = self.found.first().map_or(&[][..], |found| &found.interpretation.changes);
         let Some(text) = rewritten(changes, spec, text) else { return Ok(None) };
         Spec::parse_in(Path::new(path).parent().unwrap_or(Path::new("")), path, &text)?;

@@ -2,12 +2,11 @@
 //! fit.
 
 use abbe::identify::{Failure, between_stations};
-use abbe_spec::diagnostic::Diagnostics;
 
 use super::{Prior, Setup, Solved};
 use crate::data::Data;
-use abbe_study::mistake;
 use abbe_study::number::{self, digits};
+use abbe_study::{Result, mistake};
 
 /// Largest probability of a difference between stations by chance at which it is included in the
 /// covariance.
@@ -15,11 +14,7 @@ const CHANCE: f64 = 0.05;
 
 /// Adds the variance component between the stations of the rows to the covariance of the fit, with
 /// a note.
-pub(super) fn include_between_stations(
-    solved: &mut Solved,
-    setup: &Setup,
-    data: &Data,
-) -> Result<(), Diagnostics> {
+pub(super) fn include_between_stations(solved: &mut Solved, setup: &Setup, data: &Data) -> Result<()> {
     let found = || -> Result<_, Failure> {
         let sizes = solved.model.priors(Prior::DEFAULT_SHARE)?;
         between_stations(&solved.model, &data.observations, &solved.fit, &sizes)

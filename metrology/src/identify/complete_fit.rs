@@ -2,7 +2,7 @@
 
 use abbe::identify::{Comparison, Distances, Failure, Folds, cross_validate};
 use abbe_interpreter::Interpreter;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 
 use super::as_joint_errors::number_terms;
 use super::instruments::estimate;
@@ -11,7 +11,7 @@ use super::{
     own_magnitudes, solve,
 };
 use crate::data::{Data, Map};
-use abbe_study::{Notes, mistake};
+use abbe_study::{Notes, Result, mistake};
 
 /// Spec with derived inputs, and the rows that a model is fitted to.
 #[derive(Clone, Copy)]
@@ -37,7 +37,7 @@ impl FitInput<'_> {
         added: usize,
         checked: bool,
         notes: &mut dyn Notes,
-    ) -> Result<Setup<'i>, Diagnostics> {
+    ) -> Result<Setup<'i>> {
         let Self { map, data, settings, .. } = *self;
         let fail = |failure: Failure| mistake::whole(&data.file, &failure);
         let mut setup = Setup::new(interpreter, map, data, added)?;
@@ -60,7 +60,7 @@ impl FitInput<'_> {
         terms: &[Term],
         checked: bool,
         notes: &mut dyn Notes,
-    ) -> Result<(Setup<'i>, Solved<'i>), Diagnostics> {
+    ) -> Result<(Setup<'i>, Solved<'i>)> {
         let own = own_magnitudes(self.spec);
         let added = own.len() + terms.len() + number_terms(self.spec).len();
         let setup = self.setup(interpreter, added, checked, notes)?;
@@ -85,7 +85,7 @@ pub(super) struct Assessed {
 }
 
 impl Assessed {
-    pub(super) fn new(solved: &Solved, data: &Data) -> Result<Self, Diagnostics> {
+    pub(super) fn new(solved: &Solved, data: &Data) -> Result<Self> {
         let Solved { model, fit, cross_validated, .. } = solved;
         let rows = &data.observations;
         let by_block = |folds: Folds| {

@@ -7,9 +7,9 @@ use std::collections::HashSet;
 
 use abbe::identify::{Configurations, Distances, Failure, Selection, drift};
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_spec::option::TEST;
-use abbe_spec::{Diagnostics, Spec};
-use abbe_study::{Machine, Notes, finite, mistake};
+use abbe_study::{Machine, Notes, Result, finite, mistake};
 
 use super::alternatives::{Explanations, target_on_axis};
 use super::between_blocks::include_between_blocks;
@@ -84,12 +84,12 @@ impl Identify {
 
     /// Fits the data and selects terms on them alone, then assesses the result on the test data, if
     /// there are any.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         self.run_on(Cow::Borrowed(&self.data), self.test.as_ref().map(Cow::Borrowed), notes)
     }
 
     /// Runs the identification and consumes the data, so that they are never in memory twice.
-    pub fn run_once(&mut self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run_once(&mut self, notes: &mut dyn Notes) -> Result<Report> {
         let (data, test) = (std::mem::take(&mut self.data), self.test.take());
         self.run_on(Cow::Owned(data), test.map(Cow::Owned), notes)
     }
@@ -99,7 +99,7 @@ impl Identify {
         data: Cow<'_, Data>,
         test: Option<Cow<'_, Data>>,
         notes: &mut dyn Notes,
-    ) -> Result<Report, Diagnostics> {
+    ) -> Result<Report> {
         let Self { machine, map, settings, .. } = self;
         let overlap = test.as_deref().map_or(0, |test| train_test_overlap(&data, test));
         if let Some(warning) =
@@ -201,7 +201,7 @@ impl Identify {
         terms: &[Term],
         is_checked: bool,
         notes: &mut dyn Notes,
-    ) -> Result<Modelled<'a>, Diagnostics> {
+    ) -> Result<Modelled<'a>> {
         let (setup, solved) = input.complete_fit(interpreter, terms, is_checked, notes)?;
         let families = if solved.is_placement() { &[][..] } else { &self.terms };
         let (profiles, of_profiles) = find_profiles(families, input, (&setup, &solved), notes)?;
@@ -271,12 +271,7 @@ fn found_model(
     Ok((found, parameters(setup, solved, spec, converted)))
 }
 
-fn report(
-    job: &Identify,
-    identified: &Identified,
-    data: &Data,
-    test: Option<&Data>,
-) -> Result<Report, Diagnostics> {
+fn report(job: &Identify, identified: &Identified, data: &Data, test: Option<&Data>) -> Result<Report> {
     let Identify { machine, map, settings, .. } = job;
     let Identified { setup, solved, constant, cross_validation, chosen, overlap, .. } = *identified;
     let (spec, rows) = (&machine.spec, &data.observations);

@@ -14,13 +14,13 @@ use abbe::identify::{
 };
 use abbe_interpreter::Interpreter;
 use abbe_spec::expr::{Expression, Symbol};
-use abbe_spec::{ChainNumber, Deviation, DeviationCause, Diagnostics, Source, Spec, Variable};
+use abbe_spec::{ChainNumber, Deviation, DeviationCause, Source, Spec, Variable};
 
 use super::as_joint_errors::number_terms;
 use super::profile_table::{ProfileTable, table_name};
 use super::{ErrorSite, Family, FitInput, JointProfile, JointProfiles, Setup, Solved, solve};
 use abbe_study::number::digits;
-use abbe_study::{Notes, mistake};
+use abbe_study::{Notes, Result, mistake};
 
 /// Significance level of the paired test.
 const CHANCE: f64 = 0.01;
@@ -45,7 +45,7 @@ pub(super) fn find_profiles(
     input: &FitInput,
     fitted: (&Setup, &Solved),
     notes: &mut dyn Notes,
-) -> Result<(Option<FoundProfiles>, Vec<String>), Diagnostics> {
+) -> Result<(Option<FoundProfiles>, Vec<String>)> {
     let data = input.data;
     if !families.contains(&Family::Profile) {
         return Ok((None, Vec::new()));
@@ -76,7 +76,7 @@ fn find(
     solved: &Solved,
     offered: &[ProfileJoint],
     notes: &mut dyn Notes,
-) -> Result<Result<FoundProfiles, String>, Diagnostics> {
+) -> Result<Result<FoundProfiles, String>> {
     let FitInput { spec, data, settings, .. } = *input;
     let rows = &data.observations;
     if offered.is_empty() {
@@ -218,7 +218,7 @@ impl FoundProfiles {
         (first_setup, first): (Setup<'a>, Solved<'a>),
         input: &FitInput,
         notes: &mut dyn Notes,
-    ) -> Result<(Setup<'a>, Solved<'a>), Diagnostics> {
+    ) -> Result<(Setup<'a>, Solved<'a>)> {
         let FitInput { spec, data, settings, .. } = *input;
         let added = first_setup.description.sources.len() - first_setup.declared;
         let mut setup = input.setup(interpreter, added, false, notes)?;

@@ -9,7 +9,7 @@ use abbe_spec::{Diagnostics, Spec};
 
 use super::{Derived, FoundModel, Setup};
 use crate::data::{Data, Map, change_with_reference};
-use abbe_study::{Machine, mistake, number};
+use abbe_study::{Machine, Result, mistake, number};
 
 /// Relative difference of two root mean squares that are the same: written values are rounded, and
 /// numbers of the chain replace errors of frames to first order.
@@ -32,7 +32,7 @@ pub(super) fn read_back(
     map: &Map,
     data: &Data,
     is_kept: impl Fn(usize) -> bool + Sync,
-) -> Result<Option<ReadBack>, Diagnostics> {
+) -> Result<Option<ReadBack>> {
     // Changes of the machine are not part of its text.
     let text = machine.text().ok().filter(|_| !machine.is_changed());
     let Some(text) = text else { return Ok(None) };

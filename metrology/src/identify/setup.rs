@@ -11,7 +11,7 @@ use super::known_distances::measured_distances;
 use super::registered::{OpenPlaces, register_in_turn, registered};
 use super::scale::reference_length;
 use crate::data::{Base, Data, Map};
-use abbe_study::mistake;
+use abbe_study::{Result, mistake};
 
 /// Manipulator and its placement relative to the instrument.
 pub(crate) struct Setup<'a> {
@@ -44,7 +44,7 @@ impl<'a> Setup<'a> {
         map: &Map,
         data: &Data,
         terms: usize,
-    ) -> Result<Self, Diagnostics> {
+    ) -> Result<Self> {
         let mut setup = Self::without_stations(manipulator, map, &data.observations, terms)?;
         let names = if data.stations.is_empty() { vec![String::new()] } else { data.stations.clone() };
         setup.name_stations(map, &names);
@@ -74,17 +74,13 @@ impl<'a> Setup<'a> {
     }
 
     /// Places the manipulator as the map states, or at `F_0` of the instrument.
-    pub(crate) fn at_home(manipulator: &'a dyn Manipulator, map: &Map) -> Result<Self, Diagnostics> {
+    pub(crate) fn at_home(manipulator: &'a dyn Manipulator, map: &Map) -> Result<Self> {
         Self::with_stations(manipulator, map, &map.station_names())
     }
 
     /// Places the manipulator at every station named in rows that are to be simulated. Returns an
     /// error if the map states some stations, but not one of these.
-    pub(crate) fn at_stations_of(
-        manipulator: &'a dyn Manipulator,
-        map: &Map,
-        data: &Data,
-    ) -> Result<Self, Diagnostics> {
+    pub(crate) fn at_stations_of(manipulator: &'a dyn Manipulator, map: &Map, data: &Data) -> Result<Self> {
         let is_unstated = |name: &&String| map.stations.pose(name).is_none();
         match data.stations.iter().find(is_unstated) {
             Some(name) if !map.stations.stated.is_empty() => Err(missing_station(map, data, name)),
@@ -93,11 +89,7 @@ impl<'a> Setup<'a> {
         }
     }
 
-    fn with_stations(
-        manipulator: &'a dyn Manipulator,
-        map: &Map,
-        names: &[String],
-    ) -> Result<Self, Diagnostics> {
+    fn with_stations(manipulator: &'a dyn Manipulator, map: &Map, names: &[String]) -> Result<Self> {
         if let Some(all) = map.instruments()
             && let Some(instrument) = all.at_unknown_positions().next()
         {
@@ -127,7 +119,7 @@ impl<'a> Setup<'a> {
         map: &Map,
         rows: &[Observation],
         terms: usize,
-    ) -> Result<Self, Diagnostics> {
+    ) -> Result<Self> {
         let mut ideal = ideal_model(manipulator, map);
         ideal.ranges = ranges(rows);
         ideal.stated_freedom *= f64::from(u8::from(map.states_uncertainty()));

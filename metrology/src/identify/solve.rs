@@ -12,7 +12,7 @@ use super::row_notes::outlier_warning;
 use super::{Basis, ErrorSite, JointProfiles, Settings, Setup, Term};
 use crate::data::Data;
 use abbe_study::number::digits;
-use abbe_study::{Notes, mistake};
+use abbe_study::{Notes, Result, mistake};
 
 /// Share of the prior of constant terms that are held at zero.
 const HELD: f64 = 1e-9;
@@ -51,7 +51,7 @@ pub(super) fn solve<'a>(
     terms: &[Term],
     settings: &Settings,
     notes: &mut dyn Notes,
-) -> Result<Solved<'a>, Diagnostics> {
+) -> Result<Solved<'a>> {
     let rows = &data.observations;
     let diagnose = |cause: Failure| diagnose(&cause, data);
     let options = Options { loss: settings.loss, ..Options::default() };

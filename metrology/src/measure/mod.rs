@@ -24,7 +24,7 @@ use crate::identify::{ResidualDrift, RowNotes, Setup, Sizes, check_interpretatio
 use crate::running_sums::RunningSums;
 use crate::{Acceptance, AcceptanceVerdict, Judged};
 use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
-use abbe_study::{Machine, Notes, Residual, Residuals, RunRecord, finite, mistake};
+use abbe_study::{Machine, Notes, Residual, Residuals, Result, RunRecord, finite, mistake};
 
 pub use errors::RowError;
 use errors::{Errors, Visit};
@@ -185,17 +185,17 @@ impl Measure {
     }
 
     /// Compares each row with the ideal machine and with the predicted one.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         self.evaluate(self.data.clone(), true, notes)
     }
 
     /// Computes the report without ΔX of each row, with little memory beyond the data.
-    pub fn figures(mut self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn figures(mut self, notes: &mut dyn Notes) -> Result<Report> {
         let data = std::mem::take(&mut self.data);
         self.evaluate(data, false, notes)
     }
 
-    fn evaluate(&self, data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    fn evaluate(&self, data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Report> {
         let Self { machine, map, accept, .. } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
         let data = match data.completed(map, &interpreter, &machine.spec) {
@@ -304,12 +304,7 @@ struct Evaluated {
 }
 
 impl Evaluated {
-    fn of_points(
-        setup: &Setup,
-        mut data: Data,
-        keep: bool,
-        notes: &mut dyn Notes,
-    ) -> Result<Self, Diagnostics> {
+    fn of_points(setup: &Setup, mut data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Self> {
         errors::leave_out(setup, &mut data)?;
         let fail = |failure: identify::Failure| mistake::whole(&data.file, &failure);
         let unit = setup.description.length.symbol();
@@ -346,7 +341,7 @@ impl Evaluated {
         Ok(Self { errors, instruments, explained, norms, visits, rows, row_readings, data })
     }
 
-    fn of_readings(setup: &Setup, all: &Instruments, data: Data) -> Result<Self, Diagnostics> {
+    fn of_readings(setup: &Setup, all: &Instruments, data: Data) -> Result<Self> {
         let Readings { instruments, explained, rows: row_readings, norms } =
             readings(setup, all, &data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         let (errors, norms, visits, rows) = (Vec::new(), norms.into_figures(), Vec::new(), Vec::new());

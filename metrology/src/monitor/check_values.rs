@@ -6,7 +6,7 @@ use abbe::identify::{Failure, Model, Station, Unknown};
 use abbe::{Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::calibration::random_sources;
-use abbe_study::{Notes, Residual, Residuals, mistake};
+use abbe_study::{Notes, Residual, Residuals, Result, mistake};
 
 use super::checks::{Check, Checks};
 use super::configurations::{Configurations, Visits};
@@ -45,7 +45,7 @@ impl CheckValues {
         map: &Map,
         checks: &Checks,
         notes: &mut dyn Notes,
-    ) -> Result<(Self, Model<'a>), Diagnostics> {
+    ) -> Result<(Self, Model<'a>)> {
         let random = random_sources(manipulator.description());
         let (mut known, mut visits) = (None, Vec::new());
         let mut model = None;
@@ -202,7 +202,7 @@ impl CheckValues {
 }
 
 /// Returns an error if a check has several stations and their poses are unknown.
-fn one_station(check: &Check, map: &Map) -> Result<(), Diagnostics> {
+fn one_station(check: &Check, map: &Map) -> Result<()> {
     let rows = &check.data.observations;
     let first = rows.first().map(|row| row.station);
     if map.base == Base::Exact || rows.iter().all(|row| Some(row.station) == first) {

@@ -6,8 +6,7 @@ use std::collections::HashMap;
 
 use abbe::identify::{Measurement, Observation};
 use abbe::{Pose, VariableKind};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::mistake;
+use abbe_study::{Result, mistake};
 
 use super::checks::Check;
 use crate::identify::Setup;
@@ -80,11 +79,7 @@ pub(super) struct Visits<'c> {
 
 impl<'c> Visits<'c> {
     /// Assigns rows to configurations; new ones are appended. Rows with hidden targets are skipped.
-    pub(super) fn new(
-        check: &'c Check,
-        setup: &Setup,
-        known: &mut Configurations,
-    ) -> Result<Self, Diagnostics> {
+    pub(super) fn new(check: &'c Check, setup: &Setup, known: &mut Configurations) -> Result<Self> {
         let configuration = |row: &Observation| match &row.measured {
             Measurement::Points(points) if !points.iter().all(Option::is_some) => Ok(None),
             Measurement::Readings(readings) if readings.iter().any(Option::is_none) => Ok(None),

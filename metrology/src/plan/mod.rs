@@ -23,7 +23,7 @@ use crate::identify::{
     readable_configurations, redundant, scale_note,
 };
 use abbe_study::workspace::has_range;
-use abbe_study::{Machine, Notes, Study, finite, mistake};
+use abbe_study::{Machine, Notes, Result, Study, finite, mistake};
 
 pub use keys::{TABLES, rules};
 pub use report::{Input, Predicted, Report, UndeterminedError};
@@ -100,7 +100,7 @@ struct Chosen {
 
 impl Plan {
     /// Selects the configurations and predicts the uncertainty after the measurement.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Self { machine, map, .. } = self;
         map.require_uncertainty("a plan")?;
         map.require_joints("a plan")?;
@@ -187,7 +187,7 @@ impl Plan {
         finite(&machine.origin, report)
     }
 
-    fn readable(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>, Diagnostics> {
+    fn readable(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>> {
         let most = list.len();
         let readable = readable_configurations(setup, &self.map, list, most);
         let readable = readable.map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
@@ -201,7 +201,7 @@ impl Plan {
         (model, sizes): (&Model, &[Option<f64>]),
         objective: Objective<'_>,
         notes: &mut dyn Notes,
-    ) -> Result<Chosen, Diagnostics> {
+    ) -> Result<Chosen> {
         let fail = |failure: Failure| mistake::whole(&self.machine.origin, &failure);
         let of_sets = |sets: &Sets, notes: &mut dyn Notes| {
             let (configurations, counts) = sets.rows(manipulator, notes)?;
@@ -273,7 +273,7 @@ impl Plan {
     }
 
     /// Returns candidate samples within the limits of the joints and inputs that move.
-    fn samples(&self, manipulator: &Interpreter, candidates: usize) -> Result<Vec<Observation>, Diagnostics> {
+    fn samples(&self, manipulator: &Interpreter, candidates: usize) -> Result<Vec<Observation>> {
         let moved: Vec<usize> = self.map.moved().collect();
         let inputs = self.map.moved_inputs(&self.machine);
         let samples = match self.seed {
@@ -297,7 +297,7 @@ impl Plan {
     }
 
     /// Returns the configurations of the workspace of use, without measurements.
-    fn configurations_of_use(&self, manipulator: &dyn Manipulator) -> Result<Vec<Observation>, Diagnostics> {
+    fn configurations_of_use(&self, manipulator: &dyn Manipulator) -> Result<Vec<Observation>> {
         let fail = |error: abbe::Error| mistake::whole(&self.machine.origin, &error);
         let mut region = self.study.region.clone();
         region.fix(self.machine.fixed_inputs());

@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 
 use abbe::analysis::{Axis, Configuration, Workspace, joint_grid};
 use abbe::{Error, Manipulator};
-use abbe_spec::{Diagnostic, Diagnostics, Section, Spec};
+use abbe_spec::{Diagnostic, Section, Spec};
 use serde::Serialize;
 
 use super::keys;
 use abbe_study::workspace::{Candidates, Region, count, read_region};
-use abbe_study::{Notes, mistake, named};
+use abbe_study::{Notes, Result, mistake, named};
 
 /// Largest number of rows of a plan.
 const MOST_ROWS: usize = 1_000_000;
@@ -52,7 +52,7 @@ pub struct SetSize {
 
 impl Sets {
     /// Reads the plan in a file, or the shipped one with that name.
-    pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
+    pub fn find(argument: &Path, spec: &Spec) -> Result<Self> {
         let mut document =
             named::document(&SETS, argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
         document.length = spec.length;
@@ -64,7 +64,7 @@ impl Sets {
         &self,
         manipulator: &dyn Manipulator,
         notes: &mut dyn Notes,
-    ) -> Result<(Vec<Configuration>, Vec<SetSize>), Diagnostics> {
+    ) -> Result<(Vec<Configuration>, Vec<SetSize>)> {
         // All combinations of the plan's inputs, each a list of indices and values.
         let mut combinations: Vec<Vec<(usize, f64)>> = vec![Vec::new()];
         let sizes = self.inputs.iter().map(|axis| axis.values.len());
@@ -98,7 +98,7 @@ impl Sets {
                 Content::Axes(axes) => {
                     let grids = axes.iter().map(|axis| joint_grid(manipulator, std::slice::from_ref(axis)));
                     let grids = grids.map(|grid| Ok(Box::new(grid.map_err(refused(set))?) as _));
-                    grids.collect::<Result<_, Diagnostics>>()?
+                    grids.collect::<Result<_>>()?
                 }
             };
             let all: usize = workspaces.iter().map(|workspace| workspace.len()).sum();

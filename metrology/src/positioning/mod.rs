@@ -8,13 +8,13 @@ use abbe_spec::option::{NamedOption, READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use std::path::Path;
 
 use abbe::LengthUnit;
+use abbe_spec::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
-use abbe_spec::{Diagnostics, Document};
 use serde::Serialize;
 
 use crate::data::{Runs, Source, Table, TargetRuns, runs};
-use abbe_study::{Notes, finite, mistake};
+use abbe_study::{Notes, Result, finite, mistake};
 
 pub use evaluation::{
     ApproachResult, Bidirectional, Characteristic, Evaluation, InstrumentUncertainty, PositionResult,
@@ -77,7 +77,7 @@ pub struct DiagonalResult {
 
 impl Positioning<'_> {
     /// Reads and evaluates the runs.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Runs { is_rotary, lines } = runs(self.data)?;
         let instrument = self.instrument(is_rotary)?;
         let counts = lines.iter().flat_map(|(_, targets)| targets).flat_map(|target| &target.deviations);
@@ -116,7 +116,7 @@ impl Positioning<'_> {
     }
 
     /// Reads the uncertainties of the instrument, in um or arcsec and in these by mm or deg.
-    fn instrument(&self, is_rotary: bool) -> Result<Option<InstrumentUncertainty>, Diagnostics> {
+    fn instrument(&self, is_rotary: bool) -> Result<Option<InstrumentUncertainty>> {
         if self.reading.is_none() && self.scale.is_none() {
             return Ok(None);
         }
