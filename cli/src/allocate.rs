@@ -8,7 +8,7 @@ use clap::Args;
 
 use crate::arguments::{Common, Subject, study};
 use crate::output::{Outcome, Outputs, quoted};
-use crate::{Console, Failure};
+use crate::{Console, Failure, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -37,7 +37,7 @@ pub(crate) struct Allocate {
     common: Common,
 }
 
-pub(crate) fn run(arguments: &Allocate) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Allocate) -> Result<Outcome> {
     arguments.common.running.start()?;
     let machine = arguments.subject.as_written()?;
     let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;

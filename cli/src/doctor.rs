@@ -12,7 +12,7 @@ use abbe_study::Notes;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Showing, Subject, Writing};
-use crate::{Console, Failure, Outcome, Outputs};
+use crate::{Console, Outcome, Outputs, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -46,7 +46,7 @@ pub(crate) struct Doctor {
     showing: Showing,
 }
 
-pub(crate) fn run(arguments: &Doctor) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Doctor) -> Result<Outcome> {
     let machine = arguments.subject.machine()?;
     let within = match &arguments.within {
         None => None,

@@ -16,7 +16,7 @@ use clap::Args;
 
 use crate::arguments::{Measured, Page, Running, Showing, Subject, Writing, duration, named, whole};
 use crate::output::{Outcome, Outputs, Pending, note};
-use crate::{Console, Failure};
+use crate::{Console, Failure, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -77,7 +77,7 @@ pub(crate) struct Identify {
     running: Running,
 }
 
-pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Identify) -> Result<Outcome> {
     arguments.running.start()?;
     let detail = arguments.showing.detail();
     let mut machine = arguments.subject.as_written()?;
@@ -141,7 +141,7 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
 }
 
 /// Begins the spec of the identified machine, and its map beside it.
-fn begin<'f>(file: &'f Path, outputs: &mut Outputs) -> Result<(Pending, Pending, &'f Path), Failure> {
+fn begin<'f>(file: &'f Path, outputs: &mut Outputs) -> Result<(Pending, Pending, &'f Path)> {
     let spec = outputs.file(file)?;
     if !spec.is_file() {
         return Err(Failure::new(
@@ -194,11 +194,7 @@ impl IdentifiedFiles {
 }
 
 /// Builds the identified spec and map.
-fn identified_files(
-    file: &Path,
-    job: &identify::Identify,
-    report: &Report,
-) -> Result<IdentifiedFiles, Failure> {
+fn identified_files(file: &Path, job: &identify::Identify, report: &Report) -> Result<IdentifiedFiles> {
     let machine = &job.machine;
     let spec =
         report.found.identified_spec(&machine.spec, &machine.text_for(file)?, &file.display().to_string())?;
@@ -214,7 +210,7 @@ fn identified_files(
 }
 
 /// Parses `q2=1,2,101`.
-fn harmonics(arguments: &[String], spec: &Spec) -> Result<Vec<Harmonics>, Failure> {
+fn harmonics(arguments: &[String], spec: &Spec) -> Result<Vec<Harmonics>> {
     let read = |argument: &String| {
         let mistake = |message: &str| {
             Failure::new(format!("--harmonics {argument}"), message)

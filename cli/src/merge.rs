@@ -10,7 +10,7 @@ use clap::{Args, ValueHint};
 use crate::analyze::{self, Files, VaryingColumns};
 use crate::arguments::{Common, Dated};
 use crate::output::{Outcome, Outputs, note};
-use crate::{Console, Failure};
+use crate::{Console, Failure, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -36,7 +36,7 @@ pub(crate) struct Merge {
     common: Common,
 }
 
-pub(crate) fn run(arguments: &Merge) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Merge) -> Result<Outcome> {
     arguments.common.running.start()?;
     let mut console = Console::default();
     let read = |path: &PathBuf| Ok::<_, Failure>((path.display().to_string(), Part::read(path)?));

@@ -4,7 +4,7 @@ use abbe_metrology::schema::FileKind;
 use clap::Args;
 
 use crate::arguments::named;
-use crate::{Failure, Outcome};
+use crate::{Failure, Outcome, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -17,7 +17,7 @@ pub(crate) struct Schema {
     file: FileKind,
 }
 
-pub(crate) fn run(arguments: &Schema) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Schema) -> Result<Outcome> {
     let schema = serde_json::to_string_pretty(&arguments.file.schema());
     Ok(Outcome::passed(schema.map_err(|error| Failure::new("JSON", error))? + "\n"))
 }

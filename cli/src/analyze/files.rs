@@ -12,6 +12,7 @@ use abbe_study::number::class;
 use abbe_study::study_file::{CombinedFigure, Metric};
 use csv::{Writer, WriterBuilder};
 
+use crate::Result;
 use crate::failure::Failure;
 use crate::output::{Outputs, Pending};
 
@@ -50,7 +51,7 @@ impl Files {
         spec: &Spec,
         varying: VaryingColumns,
         drawn: bool,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         outputs.folder(folder)?;
         let configurations = writer(outputs.file(&folder.join("configurations.csv"))?);
         let files = Self::begin(folder, outputs, varying, drawn)?;
@@ -74,7 +75,7 @@ impl Files {
         outputs: &mut Outputs,
         varying: VaryingColumns,
         drawn: bool,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let mut begin = |name: &str| outputs.file(&folder.join(name));
         Ok(Self {
             configurations: None,
@@ -104,7 +105,7 @@ impl Files {
 
     /// Writes the remaining CSV files. Returns the complete files, and the page, which is still
     /// empty.
-    pub(super) fn finish(mut self, report: &Report) -> Result<(Vec<Pending>, Pending), Failure> {
+    pub(super) fn finish(mut self, report: &Report) -> Result<(Vec<Pending>, Pending)> {
         self.keep(|files| write_sources(&mut files.sources, report));
         self.keep(|files| write_unreachable(&mut files.unreachable, report));
         self.keep(|files| match (&mut files.monte_carlo, &report.monte_carlo) {

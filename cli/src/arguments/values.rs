@@ -9,6 +9,7 @@ use abbe_spec::{Document, Spec};
 use abbe_study::options::{self, Choices};
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 
+use crate::Result;
 use crate::failure::Failure;
 
 /// Returns a parser of whole numbers in a range.
@@ -47,7 +48,7 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
 }
 
 /// Parses a length that must not be negative, in the length unit of the spec.
-pub(crate) fn length(option: &str, text: &str, spec: &Spec) -> Result<f64, Failure> {
+pub(crate) fn length(option: &str, text: &str, spec: &Spec) -> Result<f64> {
     let document = Document::new(option, text);
     let value = parse_value(&document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
     match document.finish(value)? {
