@@ -14,9 +14,9 @@ use std::time::{Duration, Instant};
 
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
-use abbe_spec::{Diagnostics, Document, Spec};
+use abbe_spec::{Document, Spec};
 use abbe_study::options::{Choices, THREADS};
-use abbe_study::{Notes, Study};
+use abbe_study::{Notes, Result, Study};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -73,7 +73,7 @@ pub(crate) fn run<R: Send>(
     py: Python<'_>,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&mut dyn Notes) -> Result<R, Diagnostics> + Send,
+    work: impl FnOnce(&mut dyn Notes) -> Result<R> + Send,
 ) -> PyResult<(R, Vec<String>)> {
     let threads = threads.map(|threads| within("threads", threads, THREADS)).transpose()?.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
@@ -163,11 +163,7 @@ pub(crate) fn seconds(name: &str, value: Option<f64>) -> PyResult<Option<Duratio
 
 /// Reads the study of a file or of a text; without both, returns the study that belongs to the
 /// machine.
-pub(crate) fn study(
-    file: Option<&Path>,
-    text: Option<&str>,
-    machine: &abbe_study::Machine,
-) -> Result<Study, Diagnostics> {
+pub(crate) fn study(file: Option<&Path>, text: Option<&str>, machine: &abbe_study::Machine) -> Result<Study> {
     match (text, file) {
         (Some(text), None) => Study::read(Document::new("study_text", text), &machine.spec),
         (_, file) => Study::find(file, machine),
