@@ -5,7 +5,7 @@ use abbe::analysis::{Sweepable, Workspace};
 use crate::analyze::{self, Analyze, Verdict};
 use crate::factors::Factors;
 use crate::study_file::{Criterion, Study};
-use crate::{Changes, Machine, Notes, Result, mistake};
+use crate::{About, Changes, Machine, Notes, Result, mistake};
 
 pub use crate::factors::{AllocatedSource, Report, printed};
 
@@ -40,8 +40,7 @@ impl Allocate {
     /// Finds the factors.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let manipulator = &*self.machine.evaluator(true);
-        let workspace = self.study.region.workspace(manipulator, None);
-        let workspace = workspace.map_err(|error| mistake::whole(&self.machine.origin, &error))?;
+        let workspace = self.study.region.workspace(manipulator, None).about(&self.machine.origin)?;
         match self.study.criterion {
             Criterion::WorstCase | Criterion::RootSumOfSquares => {
                 self.factors(&self.study).over(manipulator, &*workspace, notes)

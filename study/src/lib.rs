@@ -96,6 +96,6 @@ pub use machine::{Evaluator, Machine};
 pub use reads::Reads;
 pub use release::{set_version, version};
 pub use residuals::{Residual, Residuals};
-pub use result::Result;
+pub use result::{About, Result};
 pub use run_record::{RunRecord, check_date};
 pub use study_file::Study;

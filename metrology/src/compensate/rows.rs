@@ -18,7 +18,7 @@ use abbe::identify::{Measurement, Observation};
 use abbe::{Description, Error, Manipulator, Pose, Variable, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::number::{Named, beyond_sum_limit, length, of_variable};
-use abbe_study::{Notes, Residual, Result, mistake};
+use abbe_study::{About, Notes, Residual, Result, mistake};
 use serde::Serialize;
 
 use crate::data::{Data, Map, Unusable};
@@ -99,8 +99,7 @@ impl<'a> Task<'a> {
     ) -> Result<Self> {
         let description = manipulator.description();
         let s = sampling::nominal_parameters(description);
-        let mobility = mobility(manipulator, &s);
-        let mobility = mobility.map_err(|error| mistake::whole(&description.name, &error))?;
+        let mobility = mobility(manipulator, &s).about(&description.name)?;
         Ok(Self { manipulator, description, s, poses, tolerance, weight, mobility })
     }
 

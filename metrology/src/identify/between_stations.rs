@@ -6,7 +6,7 @@ use abbe::identify::{Failure, between_stations};
 use super::{Prior, Setup, Solved};
 use crate::data::Data;
 use abbe_study::number::{self, digits};
-use abbe_study::{Result, mistake};
+use abbe_study::{About, Result};
 
 /// Largest probability of a difference between stations by chance at which it is included in the
 /// covariance.
@@ -19,7 +19,7 @@ pub(super) fn include_between_stations(solved: &mut Solved, setup: &Setup, data:
         let sizes = solved.model.priors(Prior::DEFAULT_SHARE)?;
         between_stations(&solved.model, &data.observations, &solved.fit, &sizes)
     };
-    let found = found().map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let found = found().about(&data.file)?;
     let Some(between) = found.filter(|between| between.p < CHANCE) else { return Ok(()) };
     solved.fit.covariance = between.covariance;
     let share = between.share * Prior::DEFAULT_SHARE;

@@ -6,7 +6,7 @@ use abbe_spec::option::TERMS;
 
 use super::{Compared, Setup, Solved};
 use crate::data::Data;
-use abbe_study::{Result, mistake, number};
+use abbe_study::{About, Result, mistake, number};
 
 /// Probability by chance at which terms count as worse than constant errors on the test rows.
 const WORSE: f64 = 0.05;
@@ -21,10 +21,8 @@ pub(super) fn compare(
     used: impl Fn(usize) -> bool + Sync,
 ) -> Result<Compared> {
     let rows = &data.observations;
-    let distances = |model: &Model, x: &[f64]| {
-        let distances = model.distances_where(rows, |i| used(i).then_some(x));
-        distances.map_err(|failure| mistake::whole(&data.file, &failure))
-    };
+    let distances =
+        |model: &Model, x: &[f64]| model.distances_where(rows, |i| used(i).then_some(x)).about(&data.file);
     // Few models at a time, to limit the memory for a million rows.
     let before = distances(delivered, &[])?.into_figures();
     let simple = distances(&solved.simple, &solved.simple_x)?;

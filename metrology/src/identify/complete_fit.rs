@@ -1,6 +1,6 @@
 //! Complete fit: constant errors together with selected terms.
 
-use abbe::identify::{Comparison, Distances, Failure, Folds, cross_validate};
+use abbe::identify::{Comparison, Distances, Folds, cross_validate};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 
@@ -11,7 +11,7 @@ use super::{
     own_magnitudes, solve,
 };
 use crate::data::{Data, Map};
-use abbe_study::{Notes, Result, mistake};
+use abbe_study::{About, Notes, Result};
 
 /// Spec with derived inputs, and the rows that a model is fitted to.
 #[derive(Clone, Copy)]
@@ -39,14 +39,13 @@ impl FitInput<'_> {
         notes: &mut dyn Notes,
     ) -> Result<Setup<'i>> {
         let Self { map, data, settings, .. } = *self;
-        let fail = |failure: Failure| mistake::whole(&data.file, &failure);
         let mut setup = Setup::new(interpreter, map, data, added)?;
         if checked {
             check_interpretation(&setup, map, data)?;
         }
-        setup.come_near(data).map_err(fail)?;
+        setup.come_near(data).about(&data.file)?;
         if checked {
-            check_plausibility(&setup, map, data, notes).map_err(fail)?;
+            check_plausibility(&setup, map, data, notes).about(&data.file)?;
         }
         estimate(&mut setup, map, data, settings)?;
         Ok(setup)

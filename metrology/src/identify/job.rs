@@ -9,7 +9,7 @@ use abbe::identify::{Configurations, Distances, Failure, Selection, drift};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::option::TEST;
-use abbe_study::{Machine, Notes, Result, finite, mistake};
+use abbe_study::{About, Machine, Notes, Result, finite};
 
 use super::alternatives::{Explanations, target_on_axis};
 use super::between_blocks::include_between_blocks;
@@ -277,12 +277,11 @@ fn report(job: &Identify, identified: &Identified, data: &Data, test: Option<&Da
     let (spec, rows) = (&machine.spec, &data.observations);
     let Solved { model, fit, .. } = solved;
     let identifiable = &fit.identifiable;
-    let fail = |failure: Failure| mistake::whole(&data.file, &failure);
-    let groups = indistinguishable(model, &rows[0].q, &setup.moved(rows), setup.pose)
-        .map_err(|error| mistake::whole(&data.file, &error))?;
+    let groups = indistinguishable(model, &rows[0].q, &setup.moved(rows), setup.pose).about(&data.file)?;
     let compared_fit = compare(solved, constant, &setup.delivered, data, |i| fit.is_kept(i))?;
     refuse_worse(&compared_fit, data, setup)?;
-    let [instruments, coordinates] = instrument_and_coordinate_fits(model, map, data, fit).map_err(fail)?;
+    let [instruments, coordinates] =
+        instrument_and_coordinate_fits(model, map, data, fit).about(&data.file)?;
     let test = test.map(|test| comparable(test, data, model)).transpose()?;
     let test = test.as_deref();
     let assess = |test: &Data| compare(solved, constant, &setup.delivered, test, |_| true);
@@ -299,13 +298,13 @@ fn report(job: &Identify, identified: &Identified, data: &Data, test: Option<&Da
         instruments.iter().chain(&coordinates).filter(|one| one.estimated).cloned().collect();
     let found_model = |converted| found_model(identified, spec, data, left, &estimated, converted);
     let back = |found: &FoundModel| read_back(found, machine, map, data, |i| fit.is_kept(i));
-    let (mut found, mut parameters) = found_model(true).map_err(fail)?;
+    let (mut found, mut parameters) = found_model(true).about(&data.file)?;
     let mut read = back(&found);
     if let Ok(Some(written)) = &read
         && written.differs([left, length])
     {
         // Numbers of the chain are errors of frames to first order only.
-        (found, parameters) = found_model(false).map_err(fail)?;
+        (found, parameters) = found_model(false).about(&data.file)?;
         read = back(&found);
     }
     let note = |written: &ReadBack| found.read_back_note(spec, written, [left, length]);
@@ -323,10 +322,10 @@ fn report(job: &Identify, identified: &Identified, data: &Data, test: Option<&Da
     let notes = solved.notes.iter().chain(&chosen.notes[..]).cloned();
     let kept: Vec<_> = fit.kept(rows).collect();
     let RowNotes { notes: of_rows, has_moved } =
-        RowNotes::new(setup, model, &fit.x, (data, &kept)).map_err(fail)?;
+        RowNotes::new(setup, model, &fit.x, (data, &kept)).about(&data.file)?;
     let notes = notes
         .chain(of_rows)
-        .chain(scale_note(&setup.real, rows, &setup.moved(rows)).map_err(fail)?)
+        .chain(scale_note(&setup.real, rows, &setup.moved(rows)).about(&data.file)?)
         .chain(unequal_note(&coordinates))
         .chain(tool_note(setup, model, fit))
         .chain(sum_note(setup, model, fit))
@@ -335,7 +334,7 @@ fn report(job: &Identify, identified: &Identified, data: &Data, test: Option<&Da
         .chain(test_sizes.and_then(|test| test.note_on_terms(spec.length)));
     let gains = chosen.groups.iter();
     let gains = gains.map(|(terms, selection)| gain(spec, &found, terms, selection, length));
-    let drift = drift(model, &kept, &fit.x).map_err(fail)?;
+    let drift = drift(model, &kept, &fit.x).about(&data.file)?;
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -350,7 +349,7 @@ fn report(job: &Identify, identified: &Identified, data: &Data, test: Option<&Da
         weakly_determined: WeaklyDetermined::all(model, identifiable, spec.length),
         groups,
         joint_errors: found.joint_errors.clone(),
-        target_on_axis: target_on_axis(setup, rows).map_err(fail)?,
+        target_on_axis: target_on_axis(setup, rows).about(&data.file)?,
         magnitudes: magnitudes(spec, solved),
         parameters,
         prior: solved.prior.filter(|_| !solved.is_placement()),

@@ -10,7 +10,7 @@ use super::fitted::{
 use super::priors::{Prior, fit_with_places};
 use super::setup::Setup;
 use crate::data::{Data, Map};
-use abbe_study::{Result, mistake};
+use abbe_study::{About, Result};
 
 impl Setup<'_> {
     /// Places the contacts at unknown positions at the mean position of their target by the machine
@@ -51,14 +51,13 @@ impl Setup<'_> {
         if unknowns.is_empty() {
             return Ok(None);
         }
-        let fail = |failure: Failure| mistake::whole(&data.file, &failure);
         if self.real.camera.is_some() && unknowns.iter().any(|unknown| unknown.is_tool()) {
-            self.come_near(data).map_err(fail)?;
+            self.come_near(data).about(&data.file)?;
         }
         let model = self.real.with(unknowns);
-        let priors = Prior::Auto.for_model(&model, self).map_err(fail)?;
+        let priors = Prior::Auto.for_model(&model, self).about(&data.file)?;
         let options = Options { priors, ..Options::default() };
-        let fit = fit_with_places(&model, &data.observations, options).map_err(fail)?;
+        let fit = fit_with_places(&model, &data.observations, options).about(&data.file)?;
         self.set_stations(&fitted_stations(&model, &fit.x));
         let fixtures = (0..model.fixtures.len())
             .map(|i| Fixture { geometry: fitted_fixture(&model, &fit.x, i), ..model.fixtures[i].clone() });

@@ -6,7 +6,7 @@ use abbe::identify::{EvaluatedModel, Failure, Observation};
 
 use super::solve::Solved;
 use crate::data::Data;
-use abbe_study::{Result, mistake};
+use abbe_study::{About, Result};
 
 /// Residuals of a measured point, in the frame of the instrument and the length unit.
 #[derive(Clone, Debug)]
@@ -64,8 +64,7 @@ pub(super) fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Resul
     for (data, is_test) in [(data, false)].into_iter().chain(test.map(|test| (test, true))) {
         for row in &data.observations {
             let is_rejected = !is_test && rejected.contains(&row.line);
-            let here = residuals([&mut before, &mut after], row, is_test, is_rejected);
-            points.extend(here.map_err(|failure| mistake::whole(&data.file, &failure))?);
+            points.extend(residuals([&mut before, &mut after], row, is_test, is_rejected).about(&data.file)?);
         }
     }
     Ok(points)

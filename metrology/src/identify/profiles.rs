@@ -20,7 +20,7 @@ use super::as_joint_errors::number_terms;
 use super::profile_table::{ProfileTable, table_name};
 use super::{ErrorSite, Family, FitInput, JointProfile, JointProfiles, Setup, Solved, solve};
 use abbe_study::number::digits;
-use abbe_study::{Notes, Result, mistake};
+use abbe_study::{About, Notes, Result, mistake};
 
 /// Significance level of the paired test.
 const CHANCE: f64 = 0.01;
@@ -90,7 +90,7 @@ fn find(
     let mut proceed = || !stops.stop() && settings.time.is_none_or(|time| start.elapsed() < time);
     let folds = Folds::new(rows, settings.folds);
     let fitted = fit_profiles(&solved.model, rows, &solved.fit, offered, &folds, &mut proceed);
-    let fitted = fitted.map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let fitted = fitted.about(&data.file)?;
     let on_time = proceed();
     notes.go_on()?;
     let reason = match on_time {
@@ -227,8 +227,7 @@ impl FoundProfiles {
         let sigma = self.fitted.add_uncertainty(&mut solved.fit);
         let mut joints = self.joints;
         joints.iter_mut().for_each(|joint| joint.standard_deviation *= sigma);
-        let deviation = tool_point_deviation(spec, &setup, &data.observations, &joints)
-            .map_err(|failure| mistake::whole(&data.file, &failure))?;
+        let deviation = tool_point_deviation(spec, &setup, &data.observations, &joints).about(&data.file)?;
         let [before, after] = [&first.cross_validated, &self.fitted.cross_validated].map(Distances::figures);
         let profiles = JointProfiles {
             before: before.into(),

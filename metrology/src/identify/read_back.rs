@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use abbe::identify::{Failure, Figures};
+use abbe::identify::Figures;
 use abbe_interpreter::Interpreter;
 use abbe_spec::{Diagnostics, Spec};
 
 use super::{Derived, FoundModel, Setup};
 use crate::data::{Data, Map, change_with_reference};
-use abbe_study::{Machine, Result, mistake, number};
+use abbe_study::{About, Machine, Result, number};
 
 /// Relative difference of two root mean squares that are the same: written values are rounded, and
 /// numbers of the chain replace errors of frames to first order.
@@ -48,7 +48,7 @@ pub(super) fn read_back(
     let machine = Interpreter::new(written);
     let setup = Setup::new(&machine, &map, &data, 0)?;
     let left = setup.real.distances_where(&data.observations, |i| is_kept(i).then_some(&[][..]));
-    let left = left.map_err(|failure: Failure| mistake::whole(&data.file, &failure))?;
+    let left = left.about(&data.file)?;
     let figures = left.into_figures();
     Ok(Some(ReadBack { machine, figures }))
 }

@@ -7,7 +7,7 @@ use super::setup::Setup;
 use crate::data::{Data, Instrument, Map};
 use crate::interpretations::LENGTHS;
 use abbe_study::number::digits;
-use abbe_study::{Result, mistake};
+use abbe_study::{About, Result, mistake};
 
 /// Relative deviation of a ratio from that of two units at which they explain it.
 const NEAR: f64 = 0.1;
@@ -25,7 +25,7 @@ const LEAST: usize = 5;
 /// in another unit than that of the map.
 pub(super) fn check_reading_units(setup: &Setup, map: &Map, data: &Data) -> Result<()> {
     let Some(all) = map.instruments() else { return Ok(()) };
-    let pairs = pairs(setup, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let pairs = pairs(setup, data).about(&data.file)?;
     let metres = setup.description.length.in_metres();
     for instrument in &all.list {
         let own = &pairs[instrument.observables.start];

@@ -11,7 +11,7 @@ use super::known_distances::measured_distances;
 use super::registered::{OpenPlaces, register_in_turn, registered};
 use super::scale::reference_length;
 use crate::data::{Base, Data, Map};
-use abbe_study::{Result, mistake};
+use abbe_study::{About, Result, mistake};
 
 /// Manipulator and its placement relative to the instrument.
 pub(crate) struct Setup<'a> {
@@ -54,20 +54,20 @@ impl<'a> Setup<'a> {
         for (i, station) in stations.iter_mut().enumerate() {
             if setup.open.stations[i] {
                 station.pose = registered(&setup.real, &measured, i)
-                    .map_err(|failure| mistake::whole(&data.file, &failure))?
+                    .about(&data.file)?
                     .ok_or_else(|| collinear(data, &station.name))?;
             } else if map.stations.pose(&station.name).is_none() && !map.stations.stated.is_empty() {
                 return Err(missing_station(map, data, &station.name));
             }
         }
         setup.set_stations(&stations);
-        setup.place_tool(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+        setup.place_tool(map, data).about(&data.file)?;
         let known = measured_distances(&setup.real, map, data)?;
         setup.models().into_iter().for_each(|model| model.known_distances.clone_from(&known));
-        setup.place_fixtures(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+        setup.place_fixtures(map, data).about(&data.file)?;
         if let Some(row) = data.observations.first() {
             let length = reference_length(&setup.ideal, &row.q, &setup.moved(&data.observations));
-            let length = length.map_err(|error| mistake::whole(&data.file, &error))?;
+            let length = length.about(&data.file)?;
             setup.models().into_iter().for_each(|model| model.reference_length = length);
         }
         Ok(setup)
@@ -129,7 +129,7 @@ impl<'a> Setup<'a> {
         for (source, role) in description.sources[..declared].iter().zip(&mut real.roles) {
             *role = if source.class == Class::Repeatable { Role::Known } else { Role::Off };
         }
-        let arm = ideal.arm_length().map_err(|error| mistake::whole(&description.name, &error))?;
+        let arm = ideal.arm_length().about(&description.name)?;
         let placement = map.placement.exact;
         let (delivered, open) = (real.clone(), OpenPlaces::default());
         Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, open, arm, declared })

@@ -6,7 +6,7 @@ use abbe::identify::{Failure, Model, Station, Unknown};
 use abbe::{Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::calibration::random_sources;
-use abbe_study::{Notes, Residual, Residuals, Result, mistake};
+use abbe_study::{About, Notes, Residual, Residuals, Result, mistake};
 
 use super::checks::{Check, Checks};
 use super::configurations::{Configurations, Visits};
@@ -109,7 +109,7 @@ impl CheckValues {
         if let (None, [first, ..], [.., last]) = (map.instruments(), &visits[..], &visits[..]) {
             let names = [first, last].map(|visits| checks.calendar.show(visits.check.time));
             let found = residuals(&model, [first, last], &common, [&names[0], &names[1]]);
-            numbers.residuals = found.map_err(|failure| mistake::whole(&last.check.data.file, &failure))?;
+            numbers.residuals = found.about(&last.check.data.file)?;
         }
         notes.progress(checks.list.len(), checks.list.len());
         if !fixed_station {

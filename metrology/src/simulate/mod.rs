@@ -16,7 +16,7 @@ use crate::data::{Channel, Data, Heading, Instruments, Map, Table};
 use crate::identify::{Setup, nothing_readable, readable_configurations};
 use abbe_study::number::quantity;
 use abbe_study::workspace::has_range;
-use abbe_study::{Machine, Notes, Result, finite, mistake};
+use abbe_study::{About, Machine, Notes, Result, finite, mistake};
 
 /// Number of random configurations tried for each one at which instruments can be read.
 const TRIES: usize = 20;
@@ -218,7 +218,7 @@ impl Simulate {
         let inputs = self.map.moved_inputs(&self.machine);
         random_joint_samples(manipulator, &moved, count, self.seed)
             .and_then(|samples| samples.inputs(manipulator, &inputs))
-            .map_err(|error| mistake::whole(&self.machine.origin, &error))
+            .about(&self.machine.origin)
     }
 
     /// Notes the inputs that would be drawn within their ranges if the map had a column for them.
@@ -254,8 +254,8 @@ impl Simulate {
         let stations = self.map.station_names();
         let tried = Planned::Sampled { samples: self.samples(manipulator, tries)?, stations: stations.len() };
         let rows = (0..tried.len()).map(|i| tried.row(i, &self.map).into_owned());
-        let observations = readable_configurations(setup, &self.map, rows.collect(), count)
-            .map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
+        let observations =
+            readable_configurations(setup, &self.map, rows.collect(), count).about(&self.machine.origin)?;
         if observations.is_empty() {
             return Err(nothing_readable(&self.map));
         }

@@ -8,7 +8,7 @@ use abbe::analysis::{BudgetOptions, BudgetSweep, Row};
 use super::parts::shard::Shard;
 use super::report::Report;
 use super::sweep::{AnalysisSweep, PartialAnalysis};
-use crate::{Changes, Machine, Notes, Result, Study, mistake, number};
+use crate::{About, Changes, Machine, Notes, Result, Study, mistake, number};
 
 /// Job of `abbe analyze`: evaluates each error source over the workspace of a study.
 #[derive(Clone)]
@@ -149,8 +149,7 @@ impl Analyze {
         let Self { machine, study, monte_carlo, seed, figures, .. } = self;
         let manipulator = &*machine.evaluator(!self.interpret);
         let description = manipulator.description();
-        let workspace = study.region.workspace(manipulator, *seed);
-        let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
+        let workspace = &*study.region.workspace(manipulator, *seed).about(&machine.origin)?;
         notes.progress(0, workspace.len());
         let tolerances = study.tolerances();
         let options = BudgetOptions { tolerances };

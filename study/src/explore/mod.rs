@@ -20,7 +20,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 
 use crate::analyze::Analyze;
-use crate::{Machine, Notes, Residuals, Result, Study, finite, mistake};
+use crate::{About, Machine, Notes, Residuals, Result, Study, finite};
 
 /// Functions of the generated code that a page calls, if the manipulator has them.
 const FUNCTIONS: [&str; 6] =
@@ -113,8 +113,7 @@ fn configurations(analysis: &Analyze) -> Result<Configurations> {
     let machine = analysis.machine();
     let manipulator = machine.evaluator(true);
     let region = &analysis.study().region;
-    let workspace = region.workspace(&*manipulator, analysis.seed);
-    let workspace = workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
+    let workspace = region.workspace(&*manipulator, analysis.seed).about(&machine.origin)?;
     let reached = Subset { workspace: &*workspace, count: COUNT }.reached();
     let home = workspace.home();
     Ok(Configurations {

@@ -7,7 +7,7 @@ use abbe_spec::Spec;
 use super::figure_builder::{FigureBuilder, PartialFigure};
 use super::{Figure, FigureData, Figures, Stick};
 use crate::study_file::{Content, Study};
-use crate::{Result, mistake};
+use crate::{About, Result, mistake};
 
 /// Figures of a study while their data are gathered.
 pub(in crate::analyze) struct FiguresBuilder<'a> {
@@ -64,8 +64,7 @@ impl<'a> FiguresBuilder<'a> {
             let (request, bounds) = (builder.figure.clone(), builder.bounds);
             let data = match request.content {
                 Content::Manipulator(_) => {
-                    let stick = Stick::at_home(manipulator, home, spec);
-                    FigureData::Manipulator(stick.map_err(|error| mistake::whole(&spec.file, &error))?)
+                    FigureData::Manipulator(Stick::at_home(manipulator, home, spec).about(&spec.file)?)
                 }
                 _ => builder.finish(),
             };
@@ -84,8 +83,7 @@ fn sweep_own(
     spec: &Spec,
 ) -> Result<Option<[usize; 2]>> {
     let Some(region) = &builder.figure.region else { return Ok(None) };
-    let workspace =
-        region.workspace(manipulator, None).map_err(|error| mistake::whole(&spec.file, &error))?;
+    let workspace = region.workspace(manipulator, None).about(&spec.file)?;
     let unreachable = sweep(manipulator, &*workspace, &mut |row| builder.add(row))
         .map_err(|refused| mistake::whole(&spec.file, &refused.error))?;
     Ok(Some([workspace.len() - unreachable.count, unreachable.count]))
