@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use abbe_metrology::data::Source;
 use abbe_metrology::doctor;
 use abbe_report::views;
-use abbe_spec::Document;
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::parse_value;
 use abbe_study::Notes;
+use abbe_study::options::quantity;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Showing, Subject, Writing};
@@ -48,15 +47,9 @@ pub(crate) struct Doctor {
 
 pub(crate) fn run(arguments: &Doctor) -> Result<Outcome> {
     let machine = arguments.subject.machine()?;
-    let within = match &arguments.within {
-        None => None,
-        Some(text) => {
-            let document = Document::new("--within", text.as_str());
-            let length = machine.spec.length;
-            let value = parse_value(&document, 0..text.len(), length, Dimension::LENGTH, "`--within`");
-            Some(document.finish(value)?)
-        }
-    };
+    let length =
+        |text: &String| quantity("--within", text, machine.spec.length, Dimension::LENGTH, "`--within`");
+    let within = arguments.within.as_ref().map(length).transpose()?;
     let job = doctor::Doctor { machine, data: Source::File(&arguments.data), within };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let [map, spec] = [&arguments.out, &arguments.corrected].map(Option::as_deref);
@@ -85,15 +78,11 @@ pub(crate) fn run(arguments: &Doctor) -> Result<Outcome> {
             (None, _) => {}
         }
     }
-    let printed = (!written.is_empty()).then(|| outputs.finish(written)).transpose()?;
+    let printed = outputs.finish(written)?;
     let next = match (&arguments.out, report.fits) {
         (None, true) => "--out MAP writes the map, --full for all interpretations",
         _ => "--full for all interpretations",
     };
     let text = arguments.showing.answer(&report, views::doctor(&report), next)?;
-    let outcome = Outcome::checked(text, report.fits);
-    Ok(match printed {
-        Some(printed) => outcome.beside(printed),
-        None => outcome,
-    })
+    Ok(Outcome::checked(text, report.fits).beside(printed))
 }

@@ -2,9 +2,8 @@
 
 use abbe::function::Array;
 use abbe::{Description, Function, Manipulator, Quantity};
-use abbe_spec::Document;
-use abbe_spec::value::parse_value;
 use abbe_study::mistake;
+use abbe_study::options::quantity;
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -214,10 +213,9 @@ impl Machine {
     fn quantity(&self, py: Python<'_>, input: usize, text: &str) -> PyResult<f64> {
         let spec = &self.machine.spec;
         let declared = &spec.inputs[input];
-        let document = Document::new(&declared.name, text);
         let what = format!("the value of `{}`", declared.name);
-        let value = parse_value(&document, 0..text.len(), spec.length, declared.dimension, &what);
-        document.finish(value).map_err(|mistakes| spec_error(py, &mistakes))
+        quantity(&declared.name, text, spec.length, declared.dimension, &what)
+            .map_err(|mistakes| spec_error(py, &mistakes))
     }
 }
 

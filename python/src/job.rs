@@ -13,9 +13,8 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::parse_value;
 use abbe_spec::{Document, Spec};
-use abbe_study::options::{Choices, THREADS};
+use abbe_study::options::{Choices, THREADS, quantity};
 use abbe_study::{Notes, Result, Study};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
@@ -191,12 +190,8 @@ impl Tolerances {
 /// Reads a length that must not be negative: a number in the unit of the spec, or text with a unit.
 pub(crate) fn length(name: &str, value: &Bound<'_, PyAny>, spec: &Spec) -> PyResult<f64> {
     let number: f64 = match value.cast::<PyString>() {
-        Ok(text) => {
-            let text = text.to_str()?;
-            let document = Document::new(name, text);
-            let number = parse_value(&document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
-            document.finish(number).map_err(|mistakes| spec_error(value.py(), &mistakes))?
-        }
+        Ok(text) => quantity(name, text.to_str()?, spec.length, Dimension::LENGTH, "this")
+            .map_err(|mistakes| spec_error(value.py(), &mistakes))?,
         Err(_) => value.extract()?,
     };
     match number.is_finite() && number >= 0.0 {

@@ -8,12 +8,11 @@ use abbe_spec::option::{NamedOption, READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use std::path::Path;
 
 use abbe::LengthUnit;
-use abbe_spec::Document;
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::parse_value;
 use serde::Serialize;
 
 use crate::data::{Runs, Source, Table, TargetRuns, runs};
+use abbe_study::options::quantity;
 use abbe_study::{Notes, Result, finite, mistake};
 
 pub use evaluation::{
@@ -122,10 +121,8 @@ impl Positioning<'_> {
         }
         let value = |option: &NamedOption, text: &Option<String>, dimension: Dimension| {
             let Some(text) = text else { return Ok(0.0) };
-            let document = Document::new(option, text.as_str());
             let name = format!("`{option}`");
-            let value = parse_value(&document, 0..text.len(), LengthUnit::Millimetre, dimension, &name);
-            let value = document.finish(value)?;
+            let value = quantity(option, text, LengthUnit::Millimetre, dimension, &name)?;
             if value < 0.0 {
                 let help = "give a standard uncertainty: 0 or more";
                 return Err(mistake::with_help(option, format!("{name} is negative"), help));
