@@ -58,13 +58,8 @@ pub(crate) fn run(arguments: &Merge) -> Result<Outcome> {
         }
         None => None,
     };
-    let live = match &begun {
-        Some(_) => {
-            let analysis = Cow::Borrowed(merge.job());
-            Some(Explore { analysis, study: merge.study(), residuals: None }.run(&mut console)?)
-        }
-        None => None,
-    };
+    let live = Explore { analysis: Cow::Borrowed(merge.job()), study: merge.study(), residuals: None };
+    let live = begun.as_ref().map(|_| live.run(&mut console)).transpose()?;
     let mut report = merge.report(&mut console)?;
     arguments.dated.date(&mut report.record);
     if let Some((folder, files, outputs)) = begun {
