@@ -152,10 +152,7 @@ impl Showing {
     /// Returns what a command prints: as JSON the numbers and the sentences, otherwise the text and
     /// what to do next.
     pub(crate) fn answer<R: Serialize>(&self, report: &R, document: Document, next: &str) -> Result<String> {
-        match self.json {
-            true => json(&document.worded(report)),
-            false => Ok(self.text(document) + &self.next(next)),
-        }
+        if self.json { json(&document.worded(report)) } else { Ok(self.text(document) + &self.next(next)) }
     }
 
     /// Returns the line that says what to do next; nothing below a full report.

@@ -147,10 +147,7 @@ pub(super) fn is_unknown(item: &Item<'_>) -> bool {
 
 /// Reads a standard deviation; `Some(None)` if it is to be estimated from the data.
 pub(super) fn deviation(item: &Item<'_>, dimension: Dimension) -> Option<Option<f64>> {
-    match is_unknown(item) {
-        true => Some(None),
-        false => positive(item, dimension).map(Some),
-    }
+    if is_unknown(item) { Some(None) } else { positive(item, dimension).map(Some) }
 }
 
 /// Returns the initial value of a standard deviation that is estimated: 10 µm or 10 µrad.

@@ -197,10 +197,7 @@ fn effects(model: &Model, unknowns: &[Unknown], points: &[[f64; 3]], rows: &[Obs
             moved.extend(moves.map(|row| row.clone_owned()).filter(|row| row.iter().all(|v| v.is_finite())));
         }
     }
-    match moved.is_empty() {
-        true => DMatrix::zeros(0, unknowns.len()),
-        false => DMatrix::from_rows(&moved),
-    }
+    if moved.is_empty() { DMatrix::zeros(0, unknowns.len()) } else { DMatrix::from_rows(&moved) }
 }
 
 /// Returns the combinations `U V` of the parts that have an effect, in columns.

@@ -96,13 +96,6 @@ impl Default for Settings {
     }
 }
 
-impl Default for Prior {
-    /// Returns the default: the data choose the scale.
-    fn default() -> Self {
-        Self::Auto
-    }
-}
-
 /// Parses `spec`, `auto`, or a share from 0 to 1.
 impl FromStr for Prior {
     type Err = String;
