@@ -34,8 +34,7 @@ impl Measured {
 
     fn table(what: &str, value: &Bound<'_, PyAny>, wanted: Option<Vec<&str>>) -> PyResult<Self> {
         let py = value.py();
-        let read = py.import("abbe._arrays")?.getattr("columns")?;
-        let read = read.call1((value, what, wanted))?;
+        let read = py.import("abbe._arrays")?.getattr("columns")?.call1((value, what, wanted))?;
         let (columns, others): (Vec<(String, Bound<'_, PyAny>)>, Vec<String>) = read.extract()?;
         let columns = columns.into_iter().map(|(name, cells)| Ok((name, cells_of(&cells)?)));
         let columns = Columns::new(what, columns.collect::<PyResult<_>>()?, others);

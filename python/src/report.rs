@@ -75,8 +75,7 @@ impl Report {
         messages: Vec<String>,
         text: impl Fn(&R, Detail) -> String + Send + Sync + 'static,
     ) -> PyResult<Self> {
-        let json = serde_json::to_string(&**report);
-        let json = json.map_err(failed)?;
+        let json = serde_json::to_string(&**report).map_err(failed)?;
         let report = Arc::clone(report);
         let text = Box::new(move |detail| text(&report, detail));
         let fields = PyOnceLock::new();

@@ -307,8 +307,7 @@ impl<'a> Model<'a> {
 
     /// Returns the indices of the repeatable sources.
     pub fn repeatable(&self) -> Vec<usize> {
-        let description = self.manipulator.description();
-        let all = description.sources.iter().enumerate();
+        let all = self.manipulator.description().sources.iter().enumerate();
         all.filter(|(_, source)| source.class == Class::Repeatable).map(|(i, _)| i).collect()
     }
 

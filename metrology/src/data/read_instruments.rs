@@ -31,8 +31,7 @@ pub(super) fn instruments(
         .map_or(Some(vec![Named { name: String::new(), position: Some([0.0; 3]) }]), |item| {
             targets(&item, frame)
         })?;
-    let items = root.get("instrument")?;
-    let items = items.array("an array of tables [[instrument]]")?;
+    let items = root.get("instrument")?.array("an array of tables [[instrument]]")?;
     let mut all = Instruments {
         targets: targets.iter().map(|t| t.position).collect(),
         setup,

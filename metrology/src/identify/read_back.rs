@@ -48,8 +48,7 @@ pub(super) fn read_back(
     let machine = Interpreter::new(written);
     let setup = Setup::new(&machine, &map, &data, 0)?;
     let left = setup.real.distances_where(&data.observations, |i| is_kept(i).then_some(&[][..]));
-    let left = left.about(&data.file)?;
-    let figures = left.into_figures();
+    let figures = left.about(&data.file)?.into_figures();
     Ok(Some(ReadBack { machine, figures }))
 }
 

@@ -224,8 +224,7 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Published> {
             let name = source.string();
             let known = name
                 .filter(|name| find_name(section.document, source.span(), name, &names, "source").is_some());
-            let metric = section.required("metric");
-            let metric = metric.and_then(|item| item.choice(&Metric::ALL));
+            let metric = section.required("metric").and_then(|item| item.choice(&Metric::ALL));
             known.zip(metric).map(|(name, metric)| Subject::Source(name, metric))
         }
         (None, Some(combined)) => {
@@ -240,8 +239,7 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Published> {
     };
     let figures = ["x", "y", "z", "norm"]
         .map(|key| constant(&section.get(key)?, Dimension::LENGTH, &format!("the figure `{key}`")));
-    let within = section.required("within");
-    let within = within.and_then(|item| positive(&item, Dimension::LENGTH));
+    let within = section.required("within").and_then(|item| positive(&item, Dimension::LENGTH));
     let reference = section.optional_text("reference");
     Some(Published { subject: subject?, figures, within: within?, reference })
 }
