@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::path::Path;
 
-use abbe::VariableKind;
 use abbe::analysis::{Configuration, Figures, Row};
 use abbe_spec::Spec;
 use abbe_spec::csv_writer::harmless;
@@ -225,10 +224,8 @@ fn write_unreachable(writer: &mut Writer<impl Write>, report: &Report) -> csv::R
 /// Returns the headings of a configuration, with units.
 fn names<'a>(spec: &'a Spec, varying: &'a VaryingColumns) -> impl Iterator<Item = String> + 'a {
     let length = spec.length.symbol();
-    let variables = spec.variables.iter().map(move |variable| match variable.kind {
-        VariableKind::Revolute => format!("{} (rad)", variable.name),
-        VariableKind::Prismatic => format!("{} ({length})", variable.name),
-    });
+    let variables = spec.variables.iter();
+    let variables = variables.map(move |one| format!("{} ({})", one.name, one.kind.either("rad", length)));
     let heading = |name: &str, unit: &str| match unit {
         "" => name.to_owned(),
         unit => format!("{name} ({unit})"),

@@ -75,12 +75,9 @@ fn step(change: &Change, coupled: bool) -> Option<u8> {
 
 fn zero(offset: f64, joint: usize, spec: &Spec) -> String {
     let sign = if offset < 0.0 { '-' } else { '+' };
-    match spec.variables[joint].kind {
-        VariableKind::Revolute => format!(" {sign} {} deg", digits(offset.to_degrees().abs(), DIGITS)),
-        VariableKind::Prismatic => {
-            format!(" {sign} {} {}", digits(offset.abs(), DIGITS), spec.length.symbol())
-        }
-    }
+    let kind = spec.variables[joint].kind;
+    let (value, unit) = kind.either((offset.to_degrees(), "deg"), (offset, spec.length.symbol()));
+    format!(" {sign} {} {unit}", digits(value.abs(), DIGITS))
 }
 
 /// Returns the placement of a frame or the tool: its key and value.

@@ -4,8 +4,8 @@
 
 use std::collections::HashMap;
 
+use abbe::Pose;
 use abbe::identify::{Measurement, Observation};
-use abbe::{Pose, VariableKind};
 use abbe_study::{Result, mistake};
 
 use super::checks::Check;
@@ -34,9 +34,8 @@ pub(super) struct Configurations {
 
 impl Configurations {
     pub(super) fn new(setup: &Setup) -> Self {
-        let unit = |kind: VariableKind| if kind == VariableKind::Revolute { 1.0 } else { setup.arm };
-        let units = setup.description.variables.iter().map(|variable| unit(variable.kind)).collect();
-        Self { list: Vec::new(), units, bins: HashMap::new() }
+        let units = setup.description.variables.iter().map(|variable| variable.kind.either(1.0, setup.arm));
+        Self { list: Vec::new(), units: units.collect(), bins: HashMap::new() }
     }
 
     pub(super) fn len(&self) -> usize {
