@@ -58,9 +58,7 @@ impl Target {
             }
         }
     }
-}
 
-impl Target {
     /// Checks that the folder of a file is not replaced by a link: its path has none.
     pub(super) fn is_where_it_was(&self, path: &Path) -> Result<()> {
         let Self::File(file) = self else { return Ok(()) };

@@ -251,6 +251,20 @@ impl Compensate {
         };
         Ok(finite(&self.data.file, report)?)
     }
+
+    /// Returns the heading of the table of corrected commands.
+    pub fn heading(&self) -> Heading {
+        let named = self.map.stations.column.is_some();
+        let labels = if named { self.data.stations.clone() } else { Vec::new() };
+        Heading { names: heading(&self.map), labels }
+    }
+
+    /// Returns the station name of a row; `None` if the data have no station column.
+    pub fn label(&self, row: &Row) -> Option<&str> {
+        let station = row.corrected.station as usize;
+        let label = self.map.stations.column.as_ref();
+        label.map(|_| self.data.stations.get(station).map_or("", |name| name))
+    }
 }
 
 /// Returns the spec with joints whose values the map fixes held there by their limits, and their
@@ -302,22 +316,6 @@ impl Report {
         let rows = self.rows.iter().map(|row| row.numbers(map)).collect();
         let labels = map.labels(self.rows.iter().map(|row| &row.corrected), &self.stations);
         Table { heading: heading(map), rows, labels, ..Table::default() }
-    }
-}
-
-impl Compensate {
-    /// Returns the heading of the table of corrected commands.
-    pub fn heading(&self) -> Heading {
-        let named = self.map.stations.column.is_some();
-        let labels = if named { self.data.stations.clone() } else { Vec::new() };
-        Heading { names: heading(&self.map), labels }
-    }
-
-    /// Returns the station name of a row; `None` if the data have no station column.
-    pub fn label(&self, row: &Row) -> Option<&str> {
-        let station = row.corrected.station as usize;
-        let label = self.map.stations.column.as_ref();
-        label.map(|_| self.data.stations.get(station).map_or("", |name| name))
     }
 }
 

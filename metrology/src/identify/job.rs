@@ -169,6 +169,22 @@ impl Identify {
         };
         finite(&data.file, report(self, &identified, &data, test.as_deref())?)
     }
+
+    /// Fits constants and terms, and finds profiles beside them. The interpreter is that of the
+    /// terms.
+    fn modelled<'a>(
+        &self,
+        input: &FitInput,
+        interpreter: &'a Interpreter,
+        terms: &[Term],
+        is_checked: bool,
+        notes: &mut dyn Notes,
+    ) -> Result<Modelled<'a>> {
+        let (setup, solved) = input.complete_fit(interpreter, terms, is_checked, notes)?;
+        let families = if solved.is_placement() { &[][..] } else { &self.terms };
+        let (profiles, of_profiles) = find_profiles(families, input, (&setup, &solved), notes)?;
+        Ok(Modelled { setup, solved, profiles, notes: of_profiles })
+    }
 }
 
 /// Probability by chance up to which terms count as better beside profiles.
@@ -188,24 +204,6 @@ impl Modelled<'_> {
     fn cross_validated(&self) -> &Distances {
         let profiles = self.profiles.as_ref().map(FoundProfiles::cross_validated);
         profiles.unwrap_or(&self.solved.cross_validated)
-    }
-}
-
-impl Identify {
-    /// Fits constants and terms, and finds profiles beside them. The interpreter is that of the
-    /// terms.
-    fn modelled<'a>(
-        &self,
-        input: &FitInput,
-        interpreter: &'a Interpreter,
-        terms: &[Term],
-        is_checked: bool,
-        notes: &mut dyn Notes,
-    ) -> Result<Modelled<'a>> {
-        let (setup, solved) = input.complete_fit(interpreter, terms, is_checked, notes)?;
-        let families = if solved.is_placement() { &[][..] } else { &self.terms };
-        let (profiles, of_profiles) = find_profiles(families, input, (&setup, &solved), notes)?;
-        Ok(Modelled { setup, solved, profiles, notes: of_profiles })
     }
 }
 

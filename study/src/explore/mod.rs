@@ -69,20 +69,7 @@ impl Explore<'_> {
         let report = Report::new(&self.analysis, options, &tunable, effects, configurations, code);
         finite(&machine.origin, Report { residuals: self.residuals.clone(), ..report })
     }
-}
 
-/// Returns the spec with every source enabled, and a factor of each repeatable one as an input. The
-/// beams of disabled sources have no weight: it would load the structure at a factor of 0, too.
-fn tunable(spec: &Spec) -> Spec {
-    let mut spec = spec.clone();
-    for source in spec.sources.iter_mut().filter(|source| !source.enabled) {
-        source.remove_weight();
-        source.enabled = true;
-    }
-    spec.with_magnitudes_as_inputs()
-}
-
-impl Explore<'_> {
     /// Returns the options of `abbe analyze`, in the order of a command line: the study, its
     /// tolerances, then the changes, as they were given.
     fn analyze_options(&self) -> Vec<String> {
@@ -99,6 +86,17 @@ impl Explore<'_> {
         let changes = self.analysis.study().changes.options(&machine.spec);
         options(changes.into_iter().chain(machine.options_with([])))
     }
+}
+
+/// Returns the spec with every source enabled, and a factor of each repeatable one as an input. The
+/// beams of disabled sources have no weight: it would load the structure at a factor of 0, too.
+fn tunable(spec: &Spec) -> Spec {
+    let mut spec = spec.clone();
+    for source in spec.sources.iter_mut().filter(|source| !source.enabled) {
+        source.remove_weight();
+        source.enabled = true;
+    }
+    spec.with_magnitudes_as_inputs()
 }
 
 fn options(named: impl IntoIterator<Item = (&'static str, String)>) -> Vec<String> {

@@ -14,6 +14,14 @@ use super::shard::Shard;
 use crate::analyze::sweep::PartialAnalysis;
 use crate::{Notes, Result, finite, hash, mistake};
 
+/// Prefix of each part file, followed by the format version.
+const BEGINNING: &str = "abbe part ";
+const VERSION: &str = "4";
+/// Length of the checksum line at the end, newline included.
+const CHECKSUM: usize = 65;
+/// Largest file that is read, in bytes.
+const LONGEST: u64 = 1 << 30;
+
 /// Data gathered over a share of a workspace, with the question that they belong to.
 ///
 /// Monte Carlo draws, uncertainty budgets, verdicts and the comparison with the exact chain need
@@ -77,17 +85,7 @@ impl Part {
         let budget = &self.gathered.budget;
         [budget.configurations(), budget.unreachable()]
     }
-}
 
-/// Prefix of each part file, followed by the format version.
-const BEGINNING: &str = "abbe part ";
-const VERSION: &str = "4";
-/// Length of the checksum line at the end, newline included.
-const CHECKSUM: usize = 65;
-/// Largest file that is read, in bytes.
-const LONGEST: u64 = 1 << 30;
-
-impl Part {
     /// Returns the file content, three lines: the format version, the part as JSON, and the SHA-256
     /// of both.
     pub fn to_bytes(&self) -> Vec<u8> {
