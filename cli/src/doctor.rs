@@ -1,6 +1,6 @@
 //! `abbe doctor`: finds the conventions of rows of joints and poses.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use abbe_metrology::data::Source;
 use abbe_metrology::doctor;
@@ -55,13 +55,10 @@ pub(crate) fn run(arguments: &Doctor) -> Result<Outcome> {
     let [map, spec] = [&arguments.out, &arguments.corrected].map(Option::as_deref);
     let wanted = [outputs.wanted(map)?, outputs.wanted(spec)?];
     let report = job.run(&mut Console::default())?;
-    let corrected = match spec {
-        Some(file) => {
-            let spec = &job.machine.spec;
-            report.corrected(spec, &job.machine.text_for(file)?, &file.display().to_string())?
-        }
-        None => None,
+    let corrected = |file: &Path| {
+        report.corrected(&job.machine.spec, &job.machine.text_for(file)?, &file.display().to_string())
     };
+    let corrected = spec.map(corrected).transpose()?.flatten();
     let none = match report.fits {
         false => ["no interpretation fits: no file was written, existing files are unchanged"; 2],
         true => [

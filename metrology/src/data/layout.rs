@@ -52,10 +52,7 @@ impl Map {
         names: &[String],
     ) -> Vec<String> {
         let name = |row: &Observation| names.get(row.station as usize).cloned().unwrap_or_default();
-        match self.stations.column {
-            Some(_) => rows.into_iter().map(name).collect(),
-            None => Vec::new(),
-        }
+        rows.into_iter().filter(|_| self.stations.column.is_some()).map(name).collect()
     }
 
     /// Returns the numbers of a row; `ideal` is the commanded tool point, for differences.

@@ -131,10 +131,7 @@ fn read(root: &Section<'_>, spec: &Spec) -> Option<Sets> {
     root.check_keys(&[&keys::FILE]);
     let head = root.required("plan")?.table("[plan]", &[&keys::PLAN])?;
     let repeat = head.get("repeat").map_or(Some(1), |item| count(&item, keys::MOST_REPEATS as usize));
-    let inputs = match root.get("inputs") {
-        Some(item) => Candidates::inputs(spec).axes(&item),
-        None => Vec::new(),
-    };
+    let inputs = root.get("inputs").map_or_else(Vec::new, |item| Candidates::inputs(spec).axes(&item));
     let items = root.required_list("set").and_then(|item| item.array("an array of tables [[set]]"))?;
     if items.is_empty() {
         let item = root.get("set").map_or(0..0, |item| item.span());

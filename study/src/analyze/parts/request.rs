@@ -118,9 +118,8 @@ impl AnalysisRequest {
 
     /// Checks the number of draws; returns a message if it is out of range.
     pub(super) fn check_draws(&self) -> Result<(), String> {
-        match self.monte_carlo {
+        match self.monte_carlo.filter(|draws| !DRAWS.contains(draws)) {
             None => Ok(()),
-            Some(draws) if DRAWS.contains(&draws) => Ok(()),
             Some(draws) => {
                 Err(format!("it has {draws} draws; the number must be between 1 and {}", DRAWS.end()))
             }
