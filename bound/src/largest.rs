@@ -9,11 +9,8 @@ use abbe_spec::expr::Symbol;
 
 use crate::convex::Convex;
 use crate::corners::Corners;
-use crate::period;
-use crate::problem::Problem;
 use crate::search::{Bound, Effort, MOST_MOVING, Moving, Search, Watch, of_all, still};
-use crate::tape::Tape;
-use crate::unknowns::Unknowns;
+use crate::{Problem, Tape, Unknowns, period};
 
 /// Bounds the largest value of a nonnegative node over the box of the moving names, with all other
 /// symbols `fixed`, and over all directions of a sum of errors.

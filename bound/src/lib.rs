@@ -50,6 +50,11 @@ mod tape;
 mod unknowns;
 mod vertex;
 
+use affine::Affine;
+use problem::Problem;
+use tape::Tape;
+use unknowns::Unknowns;
+
 pub use largest::{Limits, largest, limits};
 pub use search::{Bound, Effort, MOST_MOVING, Moving, Progress, Watch};
 pub use singular::{Extreme, Singular, singular_value};

@@ -1,9 +1,8 @@
 //! The function to maximize and its domain.
 
-use crate::affine::Affine;
 use crate::corners::Corners;
-use crate::tape::Tape;
 use crate::unknowns::{Buffers, Known, Unknowns};
+use crate::{Affine, Tape};
 
 /// A value to be maximized over a box.
 pub(crate) struct Problem {

@@ -6,10 +6,9 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::affine::{Affine, above};
-use crate::period;
 use crate::search::{Effort, MOST_MOVING, Moving, Progress, Queue, Watch, of_all, still};
 use crate::search_box::centres;
-use crate::tape::Tape;
+use crate::{Tape, period};
 
 /// Number of boxes bisected in a round, for any number of threads.
 const ROUND: usize = 64;

@@ -7,9 +7,8 @@ use abbe_study::{Changes, allocate, changed_text};
 use clap::Args;
 
 use crate::arguments::{Common, Subject, study};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, quoted};
+use crate::{Console, Failure, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -38,7 +37,7 @@ pub(crate) struct Allocate {
     common: Common,
 }
 
-pub(crate) fn run(arguments: &Allocate) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Allocate) -> Result<Outcome> {
     arguments.common.running.start()?;
     let machine = arguments.subject.as_written()?;
     let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;

@@ -10,9 +10,7 @@ use abbe_study::bound::options::{BOXES, Gap};
 use clap::Args;
 
 use crate::arguments::{Running, Showing, Subject, duration, study, whole};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::Outcome;
+use crate::{Console, Outcome, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -52,7 +50,7 @@ pub(crate) struct Bound {
     running: Running,
 }
 
-pub(crate) fn run(arguments: &Bound) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Bound) -> Result<Outcome> {
     arguments.running.start()?;
     let machine = arguments.subject.as_written()?;
     let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;

@@ -5,9 +5,8 @@ use abbe_study::{Notes, check};
 use clap::Args;
 
 use crate::arguments::{Showing, Subject};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, quoted};
+use crate::{Console, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -21,7 +20,7 @@ pub(crate) struct Check {
     showing: Showing,
 }
 
-pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Check) -> Result<Outcome> {
     let job = check::Check { machine: arguments.subject.machine()? };
     let mut console = Console::default();
     let report = job.run(&mut console)?;

@@ -11,9 +11,8 @@ use abbe_spec::Spec;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Common, Page, Subject, length};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write};
+use crate::{Console, Failure, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -51,7 +50,7 @@ pub(crate) struct Compensate {
     common: Common,
 }
 
-pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Compensate) -> Result<Outcome> {
     arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let mut map = map(arguments, &machine.spec)?;
@@ -104,7 +103,7 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
 }
 
 /// Reads the given map, or makes one from the names of the spec.
-fn map(arguments: &Compensate, spec: &Spec) -> Result<Map, Failure> {
+fn map(arguments: &Compensate, spec: &Spec) -> Result<Map> {
     let Some(file) = &arguments.map else {
         return Ok(Map::from_names(&Data::heading(&arguments.data)?, spec));
     };

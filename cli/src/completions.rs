@@ -3,8 +3,7 @@
 use clap::{Args, Command};
 use clap_complete::Shell;
 
-use crate::failure::Failure;
-use crate::output::Outcome;
+use crate::{Outcome, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -17,7 +16,7 @@ pub(crate) struct Completions {
     shell: Shell,
 }
 
-pub(crate) fn run(arguments: &Completions, mut command: Command) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Completions, mut command: Command) -> Result<Outcome> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, "abbe", &mut script);
     Ok(Outcome::passed(String::from_utf8_lossy(&script).into_owned()))

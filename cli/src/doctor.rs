@@ -1,20 +1,17 @@
 //! `abbe doctor`: finds the conventions of rows of joints and poses.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use abbe_metrology::data::Source;
 use abbe_metrology::doctor;
 use abbe_report::views;
-use abbe_spec::Document;
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::parse_value;
 use abbe_study::Notes;
+use abbe_study::options::quantity;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Showing, Subject, Writing};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Outcome, Outputs, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -48,29 +45,20 @@ pub(crate) struct Doctor {
     showing: Showing,
 }
 
-pub(crate) fn run(arguments: &Doctor) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Doctor) -> Result<Outcome> {
     let machine = arguments.subject.machine()?;
-    let within = match &arguments.within {
-        None => None,
-        Some(text) => {
-            let document = Document::new("--within", text.as_str());
-            let length = machine.spec.length;
-            let value = parse_value(&document, 0..text.len(), length, Dimension::LENGTH, "`--within`");
-            Some(document.finish(value)?)
-        }
-    };
+    let length =
+        |text: &String| quantity("--within", text, machine.spec.length, Dimension::LENGTH, "`--within`");
+    let within = arguments.within.as_ref().map(length).transpose()?;
     let job = doctor::Doctor { machine, data: Source::File(&arguments.data), within };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let [map, spec] = [&arguments.out, &arguments.corrected].map(Option::as_deref);
     let wanted = [outputs.wanted(map)?, outputs.wanted(spec)?];
     let report = job.run(&mut Console::default())?;
-    let corrected = match spec {
-        Some(file) => {
-            let spec = &job.machine.spec;
-            report.corrected(spec, &job.machine.text_for(file)?, &file.display().to_string())?
-        }
-        None => None,
+    let corrected = |file: &Path| {
+        report.corrected(&job.machine.spec, &job.machine.text_for(file)?, &file.display().to_string())
     };
+    let corrected = spec.map(corrected).transpose()?.flatten();
     let none = match report.fits {
         false => ["no interpretation fits: no file was written, existing files are unchanged"; 2],
         true => [
@@ -87,15 +75,11 @@ pub(crate) fn run(arguments: &Doctor) -> Result<Outcome, Failure> {
             (None, _) => {}
         }
     }
-    let printed = (!written.is_empty()).then(|| outputs.finish(written)).transpose()?;
+    let printed = outputs.finish(written)?;
     let next = match (&arguments.out, report.fits) {
         (None, true) => "--out MAP writes the map, --full for all interpretations",
         _ => "--full for all interpretations",
     };
     let text = arguments.showing.answer(&report, views::doctor(&report), next)?;
-    let outcome = Outcome::checked(text, report.fits);
-    Ok(match printed {
-        Some(printed) => outcome.beside(printed),
-        None => outcome,
-    })
+    Ok(Outcome::checked(text, report.fits).beside(printed))
 }

@@ -10,9 +10,8 @@ use abbe_study::{Machine, Reads};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Changes, Writing, study};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, is_stdout, json, note};
+use crate::{Console, Failure, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -48,10 +47,10 @@ pub(crate) struct Explore {
     json: bool,
 }
 
-pub(crate) fn run(arguments: &Explore) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Explore) -> Result<Outcome> {
     let jobs: Vec<explore::Explore<'_>> =
         arguments.specs.iter().map(|spec| job(arguments, spec)).collect::<Result<_, _>>()?;
-    let run = || -> Result<Vec<Report>, Failure> {
+    let run = || -> Result<Vec<Report>> {
         let mut console = Console::default();
         jobs.iter().map(|job| Ok(job.run(&mut console)?)).collect()
     };
@@ -80,8 +79,8 @@ fn pages(
     folder: &Path,
     names: &[&str],
     mut outputs: Outputs,
-    run: impl FnOnce() -> Result<Vec<Report>, Failure>,
-) -> Result<Outcome, Failure> {
+    run: impl FnOnce() -> Result<Vec<Report>>,
+) -> Result<Outcome> {
     let is_taken = |i: usize| names[..i].contains(&names[i]) || names[i] == "index";
     if let Some(i) = (0..names.len()).find(|i| is_taken(*i)) {
         let message = format!("two pages would have the name {}.html", names[i]);
@@ -95,7 +94,7 @@ fn pages(
     Ok(Outcome::passed(String::new()))
 }
 
-fn job(arguments: &Explore, spec: &OsStr) -> Result<explore::Explore<'static>, Failure> {
+fn job(arguments: &Explore, spec: &OsStr) -> Result<explore::Explore<'static>> {
     let machine = Machine::find(spec)?;
     let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
     let changes = arguments.changes.read(&machine.spec)?;

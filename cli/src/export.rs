@@ -9,9 +9,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Showing, Subject, Writing, whole};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Failure, Outcome, Outputs, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -68,7 +66,7 @@ fn formats() -> PossibleValuesParser {
 
 impl Export {
     /// Returns the output format with its options.
-    pub(crate) fn format(&self) -> Result<Format, Failure> {
+    pub(crate) fn format(&self) -> Result<Format> {
         let Self { to, from, base, tip, nodes, .. } = self;
         let ends = Ends { base: base.clone(), tip: tip.clone() };
         Format::choose(to, from.clone(), ends, *nodes).map_err(|unfit| {
@@ -84,7 +82,7 @@ impl Export {
     }
 }
 
-pub(crate) fn run(arguments: &Export) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Export) -> Result<Outcome> {
     let Export { subject, out, samples, seed, writing, showing, .. } = arguments;
     let format = arguments.format()?;
     let machine = subject.machine()?;

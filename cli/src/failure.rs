@@ -9,6 +9,9 @@ use abbe_study::mistake;
 
 use crate::signs::shown;
 
+/// A result whose error, unless another one is named, is a [`Failure`].
+pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
+
 /// Wrong usage or input: exit status 2.
 #[derive(Debug)]
 pub(crate) struct Failure(Box<Diagnostics>);

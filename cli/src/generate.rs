@@ -8,9 +8,8 @@ use abbe_study::generate::{self, Fmi, Language, Real, archive};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Writing, named};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, note};
+use crate::{Console, Failure, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -53,7 +52,7 @@ pub(crate) struct Generate {
     writing: Writing,
 }
 
-pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Generate) -> Result<Outcome> {
     let language = language(arguments)?;
     let job = generate::Generate {
         machine: Machine::find(&arguments.spec)?,
@@ -87,7 +86,7 @@ pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
 }
 
 /// Returns the language with its options: the number type of C, the FMI version of an FMU.
-fn language(arguments: &Generate) -> Result<Language, Failure> {
+fn language(arguments: &Generate) -> Result<Language> {
     let language = match (arguments.lang, arguments.real) {
         (language, None) => language,
         (Language::C(_), Some(real)) => Language::C(real),
@@ -106,7 +105,7 @@ fn language(arguments: &Generate) -> Result<Language, Failure> {
 }
 
 /// Writes a functional mock-up unit, an archive of all files.
-fn unit(arguments: &Generate, job: &generate::Generate, outputs: Outputs) -> Result<Outcome, Failure> {
+fn unit(arguments: &Generate, job: &generate::Generate, outputs: Outputs) -> Result<Outcome> {
     let Some(path) = &arguments.out else {
         return Err(Failure::new("--lang", "a functional mock-up unit is an archive and cannot be printed")
             .help(format!("give a file: `--out {}.fmu`", job.machine.spec.name)));

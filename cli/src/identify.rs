@@ -15,9 +15,8 @@ use abbe_spec::Spec;
 use clap::Args;
 
 use crate::arguments::{Measured, Page, Running, Showing, Subject, Writing, duration, named, whole};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, Pending, note};
+use crate::{Console, Failure, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -78,7 +77,7 @@ pub(crate) struct Identify {
     running: Running,
 }
 
-pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Identify) -> Result<Outcome> {
     arguments.running.start()?;
     let detail = arguments.showing.detail();
     let mut machine = arguments.subject.as_written()?;
@@ -114,8 +113,8 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     let (written, out) = match out {
         None => (None, Vec::new()),
         Some((spec, map, name)) => {
-            let found = identified_files(name, &job, &report)?;
-            (Some(found.text(detail)), vec![spec.fill(&found.spec)?, map.fill(&found.map)?])
+            let [found, found_map, printed] = identified_files(name, &job, &report, detail)?;
+            (Some(printed), vec![spec.fill(&found)?, map.fill(&found_map)?])
         }
     };
     let document = || views::identification(&job.machine.spec, &job.map, &report);
@@ -142,7 +141,7 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
 }
 
 /// Begins the spec of the identified machine, and its map beside it.
-fn begin<'f>(file: &'f Path, outputs: &mut Outputs) -> Result<(Pending, Pending, &'f Path), Failure> {
+fn begin<'f>(file: &'f Path, outputs: &mut Outputs) -> Result<(Pending, Pending, &'f Path)> {
     let spec = outputs.file(file)?;
     if !spec.is_file() {
         return Err(Failure::new(
@@ -159,63 +158,37 @@ fn map_file(spec: &Path) -> PathBuf {
     spec.with_extension("map.toml")
 }
 
-/// Identified spec and map, and the text printed about them.
-struct IdentifiedFiles {
-    spec: String,
-    map: String,
-    /// Path of the spec.
-    file: String,
-    /// Sentence about the map.
-    map_note: String,
-    /// Lines added to the nominal spec.
-    lines: Vec<String>,
-}
-
-impl IdentifiedFiles {
-    /// Returns the text with all added lines, or with their number only.
-    fn text(&self, detail: Detail) -> String {
-        let Self { file, map_note, lines, .. } = self;
-        let count = lines.len();
-        if count == 0 {
-            return format!("{}\n{map_note}\n", wrapped(&format!("Written to {file}: the nominal spec."), 0));
-        }
-        let text = |what: &str| {
-            format!(
-                "Written to {file}: the nominal spec, {what}, and the covariance of the \
-                identified errors"
-            )
-        };
-        match detail {
-            Detail::Full => format!("{}\n{}\n{map_note}\n", text("these lines"), lines.join("\n")),
-            Detail::Answer => {
-                format!("{}\n{map_note}\n", wrapped(&format!("{}.", text(&format!("{count} lines"))), 0))
-            }
-        }
-    }
-}
-
-/// Builds the identified spec and map.
+/// Returns the identified spec, the identified map, and the text printed about their files: all
+/// lines added to the nominal spec, or their number only.
 fn identified_files(
     file: &Path,
     job: &identify::Identify,
     report: &Report,
-) -> Result<IdentifiedFiles, Failure> {
-    let machine = &job.machine;
-    let spec =
-        report.found.identified_spec(&machine.spec, &machine.text_for(file)?, &file.display().to_string())?;
-    let name = map_file(file).display().to_string();
-    let map = report.found.identified_map(&job.map, &machine.spec, &name)?;
+    detail: Detail,
+) -> Result<[String; 3]> {
+    let identify::Identify { machine, map, .. } = job;
+    let [path, map_path] = [file, &map_file(file)].map(|path| path.display().to_string());
+    let spec = report.found.identified_spec(&machine.spec, &machine.text_for(file)?, &path)?;
+    let map = report.found.identified_map(map, &machine.spec, &map_path)?;
     let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned());
-    let map_note = format!(
-        "Written to {name}: the map with the identified station and targets; `measure`, \
+    let lines: Vec<String> = lines.collect();
+    let with = |what: &str| {
+        format!("Written to {path}: the nominal spec, {what}, and the covariance of the identified errors")
+    };
+    let of_spec = match detail {
+        _ if lines.is_empty() => wrapped(&format!("Written to {path}: the nominal spec."), 0),
+        Detail::Full => format!("{}\n{}", with("these lines"), lines.join("\n")),
+        Detail::Answer => wrapped(&format!("{}.", with(&format!("{} lines", lines.len()))), 0),
+    };
+    let of_map = format!(
+        "Written to {map_path}: the map with the identified station and targets; `measure`, \
          `simulate`, `compensate` and `plan` need both files."
     );
-    let (file, map_note) = (file.display().to_string(), wrapped(&map_note, 0));
-    Ok(IdentifiedFiles { spec: spec.text, map, file, map_note, lines: lines.collect() })
+    Ok([spec.text, map, format!("{of_spec}\n{}\n", wrapped(&of_map, 0))])
 }
 
 /// Parses `q2=1,2,101`.
-fn harmonics(arguments: &[String], spec: &Spec) -> Result<Vec<Harmonics>, Failure> {
+fn harmonics(arguments: &[String], spec: &Spec) -> Result<Vec<Harmonics>> {
     let read = |argument: &String| {
         let mistake = |message: &str| {
             Failure::new(format!("--harmonics {argument}"), message)

@@ -9,9 +9,8 @@ use abbe_study::options::CONVENTIONS;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Writing, named};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, json};
+use crate::{Console, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -54,7 +53,7 @@ pub(crate) struct Import {
     json: bool,
 }
 
-pub(crate) fn run(arguments: &Import) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Import) -> Result<Outcome> {
     let Import { file, base, tip, out, .. } = arguments;
     let format = match arguments.dh {
         None => Format::Urdf { base: base.clone(), tip: tip.clone(), fold: arguments.fold },

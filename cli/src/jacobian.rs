@@ -5,9 +5,8 @@ use abbe_study::jacobian;
 use clap::Args;
 
 use crate::arguments::Subject;
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, json};
+use crate::{Console, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -28,7 +27,7 @@ pub(crate) struct Jacobian {
     json: bool,
 }
 
-pub(crate) fn run(arguments: &Jacobian) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Jacobian) -> Result<Outcome> {
     let machine = arguments.subject.machine()?;
     let q = arguments.q.as_ref().map(|text| jacobian::read_joint_variables(text, &machine.spec));
     let q = q.transpose()?;

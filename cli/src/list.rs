@@ -4,9 +4,8 @@ use abbe_report::text;
 use abbe_study::list;
 use clap::Args;
 
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, json};
+use crate::{Console, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!("  abbe list
@@ -17,7 +16,7 @@ pub(crate) struct List {
     json: bool,
 }
 
-pub(crate) fn run(arguments: &List) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &List) -> Result<Outcome> {
     let shipped = list::List.run(&mut Console::default())?;
     Ok(Outcome::passed(if arguments.json { json(&shipped)? } else { text::list(&shipped) }))
 }

@@ -41,8 +41,9 @@ use std::process::ExitCode;
 use abbe_report::text::at_width;
 use clap::{CommandFactory, Parser, Subcommand};
 
-use failure::Failure;
-use output::Outcome;
+use console::Console;
+use failure::{Failure, Result};
+use output::{Outcome, Outputs};
 
 /// Predict, rank and check the position errors of a manipulator from its spec
 ///
@@ -150,7 +151,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+fn run(arguments: &Arguments) -> Result<Outcome> {
     match &arguments.command {
         None => Ok(Outcome::passed(Arguments::command().render_long_help().to_string() + "\n")),
         Some(Command::List(arguments)) => list::run(arguments),

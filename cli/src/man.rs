@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Command};
 
+use crate::Result;
 use crate::arguments::Writing;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write, note};
 
 #[derive(Args, Debug)]
@@ -21,7 +21,7 @@ pub(crate) struct Man {
     writing: Writing,
 }
 
-pub(crate) fn run(arguments: &Man, command: Command) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Man, command: Command) -> Result<Outcome> {
     let folder = &arguments.out;
     let pages = pages(command).map_err(|error| cannot_write(folder, &error))?;
     let mut outputs = Outputs::new(&(), arguments.writing.force);

@@ -10,9 +10,7 @@ use abbe_spec::Spec;
 use clap::{Args, ValueEnum};
 
 use crate::arguments::{Common, Dated, Measured, Subject};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Outcome, Outputs, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -53,7 +51,7 @@ pub(crate) enum Station {
     New,
 }
 
-pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Measure) -> Result<Outcome> {
     arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.measured.map, &machine.spec)?;
@@ -83,7 +81,7 @@ pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
     outcome(arguments, spec, map, &report)
 }
 
-fn outcome(arguments: &Measure, spec: &Spec, map: &Map, report: &Report) -> Result<Outcome, Failure> {
+fn outcome(arguments: &Measure, spec: &Spec, map: &Map, report: &Report) -> Result<Outcome> {
     let accepted = report.accepted.as_ref().is_none_or(AcceptanceVerdict::is_met);
     let next = match (report.explained.repeatable, &arguments.out) {
         (0, _) => "abbe identify finds the errors of this machine; --full for all figures of ISO 9283",

@@ -9,9 +9,8 @@ use clap::{Args, ValueHint};
 
 use crate::analyze::{self, Files, VaryingColumns};
 use crate::arguments::{Common, Dated};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, note};
+use crate::{Console, Failure, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -37,7 +36,7 @@ pub(crate) struct Merge {
     common: Common,
 }
 
-pub(crate) fn run(arguments: &Merge) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Merge) -> Result<Outcome> {
     arguments.common.running.start()?;
     let mut console = Console::default();
     let read = |path: &PathBuf| Ok::<_, Failure>((path.display().to_string(), Part::read(path)?));
@@ -59,13 +58,8 @@ pub(crate) fn run(arguments: &Merge) -> Result<Outcome, Failure> {
         }
         None => None,
     };
-    let live = match &begun {
-        Some(_) => {
-            let analysis = Cow::Borrowed(merge.job());
-            Some(Explore { analysis, study: merge.study(), residuals: None }.run(&mut console)?)
-        }
-        None => None,
-    };
+    let live = Explore { analysis: Cow::Borrowed(merge.job()), study: merge.study(), residuals: None };
+    let live = begun.as_ref().map(|_| live.run(&mut console)).transpose()?;
     let mut report = merge.report(&mut console)?;
     arguments.dated.date(&mut report.record);
     if let Some((folder, files, outputs)) = begun {

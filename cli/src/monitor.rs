@@ -9,9 +9,7 @@ use abbe_report::views;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Common, Page, Subject, length, whole};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Outcome, Outputs, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -48,7 +46,7 @@ pub(crate) struct Monitor {
     common: Common,
 }
 
-pub(crate) fn run(arguments: &Monitor) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Monitor) -> Result<Outcome> {
     arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let mut map = Map::find(&arguments.map, &machine.spec)?;

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use abbe_study::template::Template;
 use clap::{Args, ValueHint};
 
+use crate::Result;
 use crate::arguments::{Writing, named};
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, is_stdout, quoted};
 
 #[derive(Args, Debug)]
@@ -28,7 +28,7 @@ pub(crate) struct New {
     writing: Writing,
 }
 
-pub(crate) fn run(arguments: &New) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &New) -> Result<Outcome> {
     let New { name, template, out, writing } = arguments;
     let spec = template.spec(name)?;
     let path = out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));

@@ -10,9 +10,7 @@ use abbe_report::views;
 use clap::Args;
 
 use crate::arguments::{Common, Subject, length, named, study, whole};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Outcome, Outputs, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -58,7 +56,7 @@ pub(crate) struct Plan {
     common: Common,
 }
 
-pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Plan) -> Result<Outcome> {
     arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.map, &machine.spec)?;

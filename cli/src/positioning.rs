@@ -7,9 +7,7 @@ use abbe_report::views;
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Showing, Writing};
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, Outputs};
+use crate::{Console, Failure, Outcome, Outputs, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -40,7 +38,7 @@ pub(crate) struct Positioning {
     showing: Showing,
 }
 
-pub(crate) fn run(arguments: &Positioning) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Positioning) -> Result<Outcome> {
     let Positioning { data, reading_uncertainty, scale_uncertainty, out, writing, showing } = arguments;
     let job = positioning::Positioning {
         data: data.into(),

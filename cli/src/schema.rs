@@ -4,8 +4,7 @@ use abbe_metrology::schema::FileKind;
 use clap::Args;
 
 use crate::arguments::named;
-use crate::failure::Failure;
-use crate::output::Outcome;
+use crate::{Failure, Outcome, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -18,7 +17,7 @@ pub(crate) struct Schema {
     file: FileKind,
 }
 
-pub(crate) fn run(arguments: &Schema) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Schema) -> Result<Outcome> {
     let schema = serde_json::to_string_pretty(&arguments.file.schema());
     Ok(Outcome::passed(schema.map_err(|error| Failure::new("JSON", error))? + "\n"))
 }

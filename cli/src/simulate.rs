@@ -9,9 +9,8 @@ use abbe_metrology::simulate::{self, Places};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Running, Subject, Writing, length, share, whole};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write, json};
+use crate::{Console, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -56,7 +55,7 @@ pub(crate) struct Simulate {
     json: bool,
 }
 
-pub(crate) fn run(arguments: &Simulate) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Simulate) -> Result<Outcome> {
     arguments.running.start()?;
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.map, &machine.spec)?;

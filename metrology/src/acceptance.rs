@@ -1,14 +1,13 @@
 //! Acceptance limits on the errors of test rows.
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
-use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
+use abbe_spec::{Diagnostic, Document};
 use serde::Serialize;
 
 use crate::sizes::Sizes;
-use abbe_study::number;
+use abbe_study::{Result, number};
 
 /// Names of the figures that can be limited.
 pub(crate) const FIGURE_NAMES: [&str; 4] = ["mean", "rms", "p95", "max"];
@@ -92,7 +91,7 @@ impl AcceptanceVerdict {
 impl Acceptance {
     /// Parses `mean 0.15 mm, max 0.3 mm`, with `target fitted` among them or not. Mistakes are
     /// reported under the name `option`.
-    pub fn read(option: &str, text: &str, length: LengthUnit) -> Result<Self, Diagnostics> {
+    pub fn read(option: &str, text: &str, length: LengthUnit) -> Result<Self> {
         let document = Document::new(option, text);
         let mut read = Self::default();
         let mut at = 0;

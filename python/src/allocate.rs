@@ -8,8 +8,7 @@ use abbe_study::allocate::Allocate;
 use pyo3::prelude::*;
 
 use crate::job::{self, Tolerances, run};
-use crate::machine::Machine;
-use crate::report::Report;
+use crate::{Machine, Report};
 
 #[pymethods]
 impl Machine {

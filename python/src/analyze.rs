@@ -4,12 +4,11 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use abbe_spec::Diagnostics;
-use abbe_study::Notes;
 use abbe_study::analyze::Analyze;
 use abbe_study::analyze::options::DRAWS;
 use abbe_study::analyze::parts::{AnalysisRequest, FileText, Part, Shard};
 use abbe_study::explore::Explore;
+use abbe_study::{Notes, Result};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -25,7 +24,7 @@ impl Machine {
         study_text: Option<&str>,
         tolerances: &[String],
         notes: &mut dyn Notes,
-    ) -> Result<Analyze, Diagnostics> {
+    ) -> Result<Analyze> {
         let mut study = job::study(study, study_text, &self.unchanged)?;
         study.limit(tolerances, &self.unchanged.spec)?;
         let mut job = Analyze::new(self.unchanged.clone(), study);
@@ -34,11 +33,7 @@ impl Machine {
     }
 
     /// Returns the question of an analysis with the texts of its files and default options.
-    fn question(
-        &self,
-        study: Option<&Path>,
-        study_text: Option<&str>,
-    ) -> Result<AnalysisRequest, Diagnostics> {
+    fn question(&self, study: Option<&Path>, study_text: Option<&str>) -> Result<AnalysisRequest> {
         let folder = self.unchanged.file.as_deref().and_then(Path::parent);
         let spec_text = self.text.clone().map(|text| FileText {
             name: self.unchanged.origin.clone(),

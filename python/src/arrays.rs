@@ -20,8 +20,7 @@ pub(crate) fn numbers<'py>(
     {
         return readonly(array, what);
     }
-    let convert = CONVERT.import(value.py(), "abbe._arrays", "numbers")?;
-    let array = convert.call1((value, what, names))?;
+    let array = CONVERT.import(value.py(), "abbe._arrays", "numbers")?.call1((value, what, names))?;
     readonly(array.cast::<PyArrayDyn<f64>>().map_err(PyErr::from)?, what)
 }
 

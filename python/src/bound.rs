@@ -11,8 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::job::{self, Tolerances, run, seconds, within};
-use crate::machine::Machine;
-use crate::report::Report;
+use crate::{Machine, Report};
 
 #[pymethods]
 impl Machine {

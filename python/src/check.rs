@@ -6,9 +6,7 @@ use abbe_report::views;
 use abbe_study::check::Check;
 use pyo3::prelude::*;
 
-use crate::job::run;
-use crate::machine::Machine;
-use crate::report::Report;
+use crate::{Machine, Report, run};
 
 #[pymethods]
 impl Machine {

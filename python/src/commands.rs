@@ -11,10 +11,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
 
 use crate::arrays::{empty, numbers, output_array, tuple};
-use crate::failure::guarded;
 use crate::functions::vec_of;
 use crate::job::{length, run};
-use crate::machine::Machine;
+use crate::{Machine, guarded};
 
 /// Corrected joint commands of one or many configurations.
 #[pyclass(frozen, get_all, module = "abbe")]

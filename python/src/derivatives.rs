@@ -7,9 +7,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{empty, numbers, output_array};
-use crate::failure::guarded;
 use crate::functions::vec_of;
-use crate::machine::Machine;
+use crate::{Machine, guarded};
 
 #[pymethods]
 impl Machine {

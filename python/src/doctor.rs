@@ -6,11 +6,9 @@ use abbe_metrology::doctor::Doctor;
 use abbe_report::views;
 use pyo3::prelude::*;
 
-use crate::failure::{guarded, spec_error};
 use crate::job::{length, run};
-use crate::machine::Machine;
-use crate::measured::Measured;
 use crate::report::{Pages, Report};
+use crate::{Machine, Measured, guarded, spec_error};
 
 /// File name of the corrected spec.
 const CORRECTED: &str = "doctor.spec.toml";

@@ -12,8 +12,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::job::{named, one_of, run, within};
-use crate::machine::Machine;
-use crate::report::Report;
+use crate::{Machine, Report};
 
 /// Converts a URDF robot to a spec, from a `file` or its `text`.
 ///

@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use abbe_study::explore::Explore;
 use pyo3::prelude::*;
 
-use crate::job::run;
-use crate::machine::Machine;
+use crate::{Machine, run};
 
 #[pymethods]
 impl Machine {

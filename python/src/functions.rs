@@ -2,9 +2,8 @@
 
 use abbe::function::Array;
 use abbe::{Description, Function, Manipulator, Quantity};
-use abbe_spec::Document;
-use abbe_spec::value::parse_value;
 use abbe_study::mistake;
+use abbe_study::options::quantity;
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -12,8 +11,7 @@ use pyo3::types::{PyDict, PyFloat, PyInt, PyList, PyString};
 
 use crate::arrays::{empty, numbers, output_array, tuple};
 use crate::batch::{Argument, Batch, RejectedConfiguration};
-use crate::failure::{guarded, spec_error};
-use crate::machine::Machine;
+use crate::{Machine, guarded, spec_error};
 
 /// Number of configurations from which other Python threads may run during an evaluation.
 const MANY: usize = 32;
@@ -215,10 +213,9 @@ impl Machine {
     fn quantity(&self, py: Python<'_>, input: usize, text: &str) -> PyResult<f64> {
         let spec = &self.machine.spec;
         let declared = &spec.inputs[input];
-        let document = Document::new(&declared.name, text);
         let what = format!("the value of `{}`", declared.name);
-        let value = parse_value(&document, 0..text.len(), spec.length, declared.dimension, &what);
-        document.finish(value).map_err(|mistakes| spec_error(py, &mistakes))
+        quantity(&declared.name, text, spec.length, declared.dimension, &what)
+            .map_err(|mistakes| spec_error(py, &mistakes))
     }
 }
 

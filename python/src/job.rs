@@ -13,10 +13,9 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::parse_value;
-use abbe_spec::{Diagnostics, Document, Spec};
-use abbe_study::options::{Choices, THREADS};
-use abbe_study::{Notes, Study};
+use abbe_spec::{Document, Spec};
+use abbe_study::options::{Choices, THREADS, quantity};
+use abbe_study::{Notes, Result, Study};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -73,7 +72,7 @@ pub(crate) fn run<R: Send>(
     py: Python<'_>,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&mut dyn Notes) -> Result<R, Diagnostics> + Send,
+    work: impl FnOnce(&mut dyn Notes) -> Result<R> + Send,
 ) -> PyResult<(R, Vec<String>)> {
     let threads = threads.map(|threads| within("threads", threads, THREADS)).transpose()?.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
@@ -163,11 +162,7 @@ pub(crate) fn seconds(name: &str, value: Option<f64>) -> PyResult<Option<Duratio
 
 /// Reads the study of a file or of a text; without both, returns the study that belongs to the
 /// machine.
-pub(crate) fn study(
-    file: Option<&Path>,
-    text: Option<&str>,
-    machine: &abbe_study::Machine,
-) -> Result<Study, Diagnostics> {
+pub(crate) fn study(file: Option<&Path>, text: Option<&str>, machine: &abbe_study::Machine) -> Result<Study> {
     match (text, file) {
         (Some(text), None) => Study::read(Document::new("study_text", text), &machine.spec),
         (_, file) => Study::find(file, machine),
@@ -195,12 +190,8 @@ impl Tolerances {
 /// Reads a length that must not be negative: a number in the unit of the spec, or text with a unit.
 pub(crate) fn length(name: &str, value: &Bound<'_, PyAny>, spec: &Spec) -> PyResult<f64> {
     let number: f64 = match value.cast::<PyString>() {
-        Ok(text) => {
-            let text = text.to_str()?;
-            let document = Document::new(name, text);
-            let number = parse_value(&document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
-            document.finish(number).map_err(|mistakes| spec_error(value.py(), &mistakes))?
-        }
+        Ok(text) => quantity(name, text.to_str()?, spec.length, Dimension::LENGTH, "this")
+            .map_err(|mistakes| spec_error(value.py(), &mistakes))?,
         Err(_) => value.extract()?,
     };
     match number.is_finite() && number >= 0.0 {

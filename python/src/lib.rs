@@ -37,6 +37,12 @@ mod report;
 mod simulate;
 mod table;
 
+use failure::{guarded, spec_error};
+use job::run;
+use machine::Machine;
+use measured::Measured;
+use report::Report;
+
 /// Compiled part of the package `abbe`.
 #[pyo3::pymodule(gil_used = false)]
 mod _abbe {

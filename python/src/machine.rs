@@ -5,9 +5,9 @@ use std::sync::OnceLock;
 use abbe::{Function, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 use abbe_study::analyze::parts::Change;
-use abbe_study::{Changes, changed_text};
+use abbe_study::{Changes, Result, changed_text};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBool, PyDict, PyString, PyTuple};
@@ -87,13 +87,13 @@ impl Machine {
     }
 
     /// Reads the changes, one by one, for a job.
-    pub(crate) fn changes(&self) -> Result<Vec<Changes>, Diagnostics> {
+    pub(crate) fn changes(&self) -> Result<Vec<Changes>> {
         let spec = &self.unchanged.spec;
         self.changes.iter().map(|change| change.read(spec)).collect()
     }
 
     /// Returns the text of the spec without changes.
-    pub(crate) fn text(&self) -> Result<String, Diagnostics> {
+    pub(crate) fn text(&self) -> Result<String> {
         self.text.clone().map_or_else(|| self.unchanged.text(), Ok)
     }
 
@@ -103,7 +103,7 @@ impl Machine {
 }
 
 /// Finds a shipped manipulator or reads a spec file; with `text`, parses the text.
-fn find_machine(origin: &str, text: Option<&str>) -> Result<abbe_study::Machine, Diagnostics> {
+fn find_machine(origin: &str, text: Option<&str>) -> Result<abbe_study::Machine> {
     match text {
         None => abbe_study::Machine::find(origin),
         Some(text) => Ok(abbe_study::Machine::of_spec(Spec::parse(origin, text)?, origin)),

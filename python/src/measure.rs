@@ -7,10 +7,8 @@ use abbe_metrology::measure::Measure;
 use abbe_report::views;
 use pyo3::prelude::*;
 
-use crate::job::run;
-use crate::machine::Machine;
 use crate::measured::{Measured, unusable};
-use crate::report::Report;
+use crate::{Machine, Report, run};
 
 #[pymethods]
 impl Machine {

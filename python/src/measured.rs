@@ -8,8 +8,7 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyString, PyTuple};
 
-use crate::failure::{guarded, spec_error};
-use crate::machine::Machine;
+use crate::{Machine, guarded, spec_error};
 
 /// Rows of measurements.
 pub(crate) enum Measured {
@@ -35,8 +34,7 @@ impl Measured {
 
     fn table(what: &str, value: &Bound<'_, PyAny>, wanted: Option<Vec<&str>>) -> PyResult<Self> {
         let py = value.py();
-        let read = py.import("abbe._arrays")?.getattr("columns")?;
-        let read = read.call1((value, what, wanted))?;
+        let read = py.import("abbe._arrays")?.getattr("columns")?.call1((value, what, wanted))?;
         let (columns, others): (Vec<(String, Bound<'_, PyAny>)>, Vec<String>) = read.extract()?;
         let columns = columns.into_iter().map(|(name, cells)| Ok((name, cells_of(&cells)?)));
         let columns = Columns::new(what, columns.collect::<PyResult<_>>()?, others);

@@ -8,9 +8,7 @@ use abbe_report::views;
 use pyo3::prelude::*;
 
 use crate::job::{length, run, within};
-use crate::machine::Machine;
-use crate::measured::Measured;
-use crate::report::Report;
+use crate::{Machine, Measured, Report};
 
 #[pymethods]
 impl Machine {

@@ -14,9 +14,7 @@ use pyo3::exceptions::{PyFileExistsError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::failure::{guarded, spec_error};
-use crate::job::run;
-use crate::report::Report;
+use crate::{Report, guarded, run, spec_error};
 
 /// Part of an analysis, from `Machine.analyze(…, shard=(i, n))` or `Part.load`. It can be pickled;
 /// `abbe.merge` of all parts is the report.

@@ -11,8 +11,7 @@ use abbe_study::Study;
 use pyo3::prelude::*;
 
 use crate::job::{length, named, run, within};
-use crate::machine::Machine;
-use crate::report::Report;
+use crate::{Machine, Report};
 
 #[pymethods]
 impl Machine {

@@ -6,9 +6,7 @@ use abbe_metrology::positioning::Positioning;
 use abbe_report::views;
 use pyo3::prelude::*;
 
-use crate::job::run;
-use crate::measured::Measured;
-use crate::report::Report;
+use crate::{Measured, Report, run};
 
 /// Evaluates runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6.
 ///

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use abbe_metrology::data;
 use abbe_report::text::Detail;
 use abbe_report::{Document, Picture};
-use abbe_spec::Diagnostics;
+use abbe_study::Result;
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -26,7 +26,7 @@ use crate::table::Table;
 pub(crate) type Pages = Vec<(String, String)>;
 
 /// Function that builds a part of the report on demand.
-type Make<T> = Box<dyn Fn() -> Result<T, Diagnostics> + Send + Sync>;
+type Make<T> = Box<dyn Fn() -> Result<T> + Send + Sync>;
 
 /// Figure: name, title, picture, and content as JSON.
 type Figure = (String, String, String, String);
@@ -75,8 +75,7 @@ impl Report {
         messages: Vec<String>,
         text: impl Fn(&R, Detail) -> String + Send + Sync + 'static,
     ) -> PyResult<Self> {
-        let json = serde_json::to_string(&**report);
-        let json = json.map_err(failed)?;
+        let json = serde_json::to_string(&**report).map_err(failed)?;
         let report = Arc::clone(report);
         let text = Box::new(move |detail| text(&report, detail));
         let fields = PyOnceLock::new();
@@ -94,10 +93,7 @@ impl Report {
     }
 
     /// Adds files.
-    pub(crate) fn with_pages(
-        self,
-        pages: impl Fn() -> Result<Pages, Diagnostics> + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn with_pages(self, pages: impl Fn() -> Result<Pages> + Send + Sync + 'static) -> Self {
         Self { pages: Some(Box::new(pages)), ..self }
     }
 

@@ -2,9 +2,8 @@
 
 use abbe_study::explore::Report;
 
-use crate::explore::explore;
 use crate::html::index;
-use crate::pictures::File;
+use crate::{File, explore};
 
 /// Name of the page that lists the others.
 pub const INDEX: &str = "index.html";

@@ -1,15 +1,11 @@
 //! Allocation: factors of the error sources with which a study keeps its tolerance at least cost.
 
 use abbe::analysis::{Sweepable, Workspace};
-use abbe_spec::Diagnostics;
 
 use crate::analyze::{self, Analyze, Verdict};
-use crate::changes::Changes;
 use crate::factors::Factors;
-use crate::machine::Machine;
-use crate::mistake;
-use crate::notes::Notes;
 use crate::study_file::{Criterion, Study};
+use crate::{About, Changes, Machine, Notes, Result, mistake};
 
 pub use crate::factors::{AllocatedSource, Report, printed};
 
@@ -42,10 +38,9 @@ impl Allocate {
     }
 
     /// Finds the factors.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let manipulator = &*self.machine.evaluator(true);
-        let workspace = self.study.region.workspace(manipulator, None);
-        let workspace = workspace.map_err(|error| mistake::whole(&self.machine.origin, &error))?;
+        let workspace = self.study.region.workspace(manipulator, None).about(&self.machine.origin)?;
         match self.study.criterion {
             Criterion::WorstCase | Criterion::RootSumOfSquares => {
                 self.factors(&self.study).over(manipulator, &*workspace, notes)
@@ -65,7 +60,7 @@ impl Allocate {
         manipulator: &dyn Sweepable,
         workspace: &dyn Workspace,
         notes: &mut dyn Notes,
-    ) -> Result<Report, Diagnostics> {
+    ) -> Result<Report> {
         let Self { study, .. } = self;
         let at = |multiple: f64, notes: &mut dyn Notes| {
             let times = |tolerance: Option<f64>| tolerance.map(|tolerance| multiple * tolerance);
@@ -106,7 +101,7 @@ impl Allocate {
 
     /// Returns `true` if an analysis with these factors meets the study, and still does without the
     /// sources that counteract others.
-    fn is_kept(&self, scales: &[String], notes: &mut dyn Notes) -> Result<bool, Diagnostics> {
+    fn is_kept(&self, scales: &[String], notes: &mut dyn Notes) -> Result<bool> {
         notes.go_on()?;
         let report = self.analyzed(scales)?;
         let is_met = |report: &analyze::Report| {
@@ -118,7 +113,7 @@ impl Allocate {
         Ok(is_met(&report) && (without.is_empty() || is_met(&self.analyzed(&[scales, &without].concat())?)))
     }
 
-    fn analyzed(&self, scales: &[String]) -> Result<analyze::Report, Diagnostics> {
+    fn analyzed(&self, scales: &[String]) -> Result<analyze::Report> {
         let changes = Changes::read([&[], &[], &[], scales], &self.machine.spec)?;
         let study = Study { changes: Changes::default(), figures: Vec::new(), ..self.study.clone() };
         let mut job = Analyze::new(self.machine.clone(), study);

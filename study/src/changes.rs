@@ -8,10 +8,10 @@ use abbe_spec::edit::{Edits, write};
 use abbe_spec::expr::{Dimension, Symbol};
 use abbe_spec::option::{DISABLE, ENABLE, NamedOption, Q, SCALE, SCALE_GEAR, SET, SET_X};
 use abbe_spec::value::{find_name, parse_value};
-use abbe_spec::{Diagnostic, Diagnostics, Document, Spec};
+use abbe_spec::{Diagnostic, Document, Spec};
 
-use crate::number;
 use crate::number::exact_quantity;
+use crate::{Result, number};
 
 /// Changes to a spec, applied in order.
 #[derive(Clone, Debug, Default)]
@@ -28,7 +28,7 @@ pub struct Changes {
 impl Changes {
     /// Parses lists of `NAME=VALUE`, of sources to switch on and off, and of `SOURCE=FACTOR`.
     /// Mistakes are reported under the options `--set`, `--enable`, `--disable` and `--scale`.
-    pub fn read([set, enable, disable, scale]: [&[String]; 4], spec: &Spec) -> Result<Self, Diagnostics> {
+    pub fn read([set, enable, disable, scale]: [&[String]; 4], spec: &Spec) -> Result<Self> {
         let named = [("set", set), ("enable", enable), ("disable", disable), ("scale", scale)];
         let stated = named.iter().flat_map(|(name, texts)| texts.iter().map(|text| (*name, text.clone())));
         let mut changes = Self { stated: stated.collect(), ..Self::default() };
@@ -57,7 +57,7 @@ impl Changes {
     }
 
     /// Parses `NAME=VALUE` with a number in coherent units.
-    pub fn parse_number(change: &str, spec: &Spec) -> Result<Self, Diagnostics> {
+    pub fn parse_number(change: &str, spec: &Spec) -> Result<Self> {
         let stated = vec![("set", change.to_owned())];
         let mut changes = Self { stated, ..Self::default() };
         let document = Document::new(SET, change);
@@ -189,11 +189,7 @@ pub fn find_symbol(document: &Document, span: Span, name: &str, spec: &Spec) -> 
 
 /// Parses all values of an option as lines of one document, so that all mistakes are reported at
 /// once.
-fn each_line(
-    option: &NamedOption,
-    values: &[String],
-    mut read: impl FnMut(&Document, Span),
-) -> Result<(), Diagnostics> {
+fn each_line(option: &NamedOption, values: &[String], mut read: impl FnMut(&Document, Span)) -> Result<()> {
     let document = Document::new(option, values.join("\n"));
     let mut start = 0;
     for value in values {

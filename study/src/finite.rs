@@ -5,14 +5,13 @@
 
 use std::fmt::Display;
 
-use abbe_spec::Diagnostics;
 use ciborium::Value;
 use serde::{Serialize, Serializer};
 
-use crate::mistake;
+use crate::{Result, mistake};
 
 /// Returns the report, or a diagnostic that names the first number in it that is not finite.
-pub fn finite<R: Serialize>(subject: impl Display, report: R) -> Result<R, Diagnostics> {
+pub fn finite<R: Serialize>(subject: impl Display, report: R) -> Result<R> {
     match Value::serialized(&report).ok().as_ref().and_then(place_of_infinite) {
         Some(place) if !place.is_empty() => {
             let message = format!("`{}` of the result is not a finite number", place.join("."));

@@ -5,13 +5,11 @@ use std::borrow::Cow;
 
 pub use abbe_codegen::print::{Fmi, Language, Real, SourceFile};
 use abbe_spec::value::find_name;
-use abbe_spec::{Diagnostics, Document, Spec, check_name};
+use abbe_spec::{Document, Spec, check_name};
 
 pub use crate::archive::archive;
-use crate::machine::Machine;
-use crate::mistake;
-use crate::notes::Notes;
 use crate::options::Choices;
+use crate::{Machine, Notes, Result, mistake};
 
 /// Job of `abbe generate`: writes the code of a manipulator.
 #[derive(Clone)]
@@ -49,7 +47,7 @@ impl Generate {
     /// Returns the generated files, one or several. The bytes depend only on the spec and the
     /// options. Fails if the language has no such function, the name is not valid, or a number of
     /// the spec does not fit the language's floating-point type.
-    pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<SourceFile>, Diagnostics> {
+    pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<SourceFile>> {
         let mut spec = Cow::Borrowed(&*self.machine.spec);
         if let Some(name) = &self.name {
             check_name(NAME, name)?;
@@ -72,7 +70,7 @@ impl Generate {
     }
 
     /// Returns the functions of a list of names.
-    fn selected(&self, only: &str, spec: &Spec) -> Result<Vec<&'static str>, Diagnostics> {
+    fn selected(&self, only: &str, spec: &Spec) -> Result<Vec<&'static str>> {
         let possible = self.language.functions(spec);
         if possible.is_empty() {
             let message = format!("`{ONLY}` has no effect on {}", self.language.name());

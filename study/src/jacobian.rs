@@ -10,13 +10,10 @@ use abbe_spec::degrees::check_angle_text;
 use abbe_spec::diagnostic::Span;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
-use abbe_spec::{Diagnostic, Diagnostics, Document, Spec, Variable};
+use abbe_spec::{Diagnostic, Document, Spec, Variable};
 use serde::Serialize;
 
-use crate::finite::finite;
-use crate::machine::Machine;
-use crate::notes::Notes;
-use crate::{number, open_loops};
+use crate::{Machine, Notes, Result, finite, number, open_loops};
 
 /// Job of `abbe jacobian`: evaluates `J_e` and `ε` at one configuration.
 #[derive(Clone)]
@@ -76,7 +73,7 @@ pub struct LegForce {
 
 impl Jacobian {
     /// Evaluates the configuration. Notes each variable that is outside its limits.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let spec = &self.machine.spec;
         let interpreter = Interpreter::new(Arc::clone(spec));
         let description = interpreter.description();
@@ -192,7 +189,7 @@ fn note_beyond_limits(variable: &Variable, value: f64, spec: &Spec, notes: &mut 
 }
 
 /// Parses the values of `--q`, one per variable: `500,0.2m,0,-90deg,pi/180,0`.
-pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnostics> {
+pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>> {
     let document = Document::new(Q, text);
     let spans = value_spans(text);
     if spans.len() != spec.variables.len() {

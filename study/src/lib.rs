@@ -4,7 +4,7 @@
 //! A **job** is a struct that holds its options and inputs, owned and plain, and has one function,
 //!
 //! ```text
-//! pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics>
+//! pub fn run(&self, notes: &mut dyn Notes) -> Result<Report>
 //! ```
 //!
 //! All jobs follow the same rules, so that the command, the Python module and tests call them
@@ -80,8 +80,11 @@ pub mod open_loops;
 mod reads;
 mod release;
 mod residuals;
+mod result;
 mod run_record;
 mod table_paths;
+
+use closing::Closing;
 
 pub use abbe_spec::notes::Notes;
 pub use abbe_spec::{mistake, notes};
@@ -93,5 +96,6 @@ pub use machine::{Evaluator, Machine};
 pub use reads::Reads;
 pub use release::{set_version, version};
 pub use residuals::{Residual, Residuals};
+pub use result::{About, Result};
 pub use run_record::{RunRecord, check_date};
 pub use study_file::Study;

@@ -2,11 +2,10 @@
 
 use abbe::VariableKind;
 use abbe_manipulators::{MECHANISMS, SHIPPED};
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 use serde::Serialize;
 
-use crate::machine::Machine;
-use crate::notes::Notes;
+use crate::{Machine, Notes, Result};
 
 /// Job of `abbe list`: lists the shipped manipulators.
 #[derive(Clone, Copy, Debug, Default)]
@@ -34,7 +33,7 @@ pub struct ShippedManipulator {
 
 impl List {
     /// Returns all shipped manipulators, sorted by name.
-    pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<ShippedManipulator>, Diagnostics> {
+    pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<ShippedManipulator>> {
         let names = SHIPPED.iter().map(|shipped| shipped.name).chain(MECHANISMS.iter().map(|one| one.0));
         let mut listed = Vec::new();
         for name in names {

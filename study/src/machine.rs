@@ -14,10 +14,8 @@ use abbe_spec::option::{NamedOption, option};
 use abbe_spec::{Diagnostics, Document, Factor, Magnitude, Source, Spec};
 
 use crate::calibration::{calibration_errors, has_magnitude};
-use crate::changes::Changes;
 use crate::table_paths::with_table_paths;
-use crate::{mistake, open_loops};
-use crate::{named, number};
+use crate::{Changes, Result, mistake, named, number, open_loops};
 
 /// Spec of a manipulator, with its generated code and study if it is a shipped one.
 #[derive(Clone)]
@@ -60,7 +58,7 @@ impl Machine {
 
     /// Reads the spec that an argument names: a file if it exists or looks like a path, else a
     /// shipped name.
-    pub fn find(argument: impl AsRef<OsStr>) -> Result<Self, Diagnostics> {
+    pub fn find(argument: impl AsRef<OsStr>) -> Result<Self> {
         let path = Path::new(&argument);
         let name = path.to_string_lossy();
         if named::is_path(path) {
@@ -75,7 +73,7 @@ impl Machine {
     }
 
     /// Returns the shipped manipulator with a name, if there is one.
-    pub fn named(name: &str) -> Result<Option<Self>, Diagnostics> {
+    pub fn named(name: &str) -> Result<Option<Self>> {
         if let Some(shipped) = SHIPPED.iter().find(|shipped| shipped.name == name) {
             return Self::shipped(shipped).map(Some);
         }
@@ -85,7 +83,7 @@ impl Machine {
     }
 
     /// Returns a shipped manipulator.
-    pub fn shipped(shipped: &'static Shipped) -> Result<Self, Diagnostics> {
+    pub fn shipped(shipped: &'static Shipped) -> Result<Self> {
         let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec)?;
         Ok(Self::new(spec, shipped.name, Some(shipped)))
     }
@@ -193,7 +191,7 @@ impl Machine {
 
     /// Fails unless the frames are a chain. `refused` says what is not done for other machines,
     /// `instead` what to do.
-    pub fn require_chain(&self, refused: &str, instead: &str) -> Result<(), Diagnostics> {
+    pub fn require_chain(&self, refused: &str, instead: &str) -> Result<()> {
         let structure = match self.spec.is_serial() {
             true => return Ok(()),
             false if self.spec.loops.is_empty() => "branches",
@@ -204,7 +202,7 @@ impl Machine {
     }
 
     /// Returns the text of the spec before changes.
-    pub fn text(&self) -> Result<String, Diagnostics> {
+    pub fn text(&self) -> Result<String> {
         let mechanism = || MECHANISMS.iter().find(|(name, _)| *name == self.origin);
         Ok(match (self.shipped, &self.file) {
             (Some(shipped), _) => shipped.spec.to_owned(),
@@ -218,7 +216,7 @@ impl Machine {
 
     /// Returns the text of the spec before changes for another file: relative paths of tables lead
     /// to the same files.
-    pub fn text_for(&self, path: &Path) -> Result<String, Diagnostics> {
+    pub fn text_for(&self, path: &Path) -> Result<String> {
         let folder = |file: &Path| file.parent().map(Path::to_owned).unwrap_or_default();
         let text = self.text()?;
         Ok(match &self.file {

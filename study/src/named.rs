@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::Result;
 use abbe_spec::diagnostic::nearest_file;
 use abbe_spec::option::NamedOption;
 use abbe_spec::value::find_name;
@@ -23,7 +24,7 @@ pub fn document(
     shipped: &[(&str, &str)],
     folder: &str,
     what: &str,
-) -> Result<Document, Diagnostics> {
+) -> Result<Document> {
     let name = argument.to_string_lossy();
     if is_path(argument) {
         return Document::read(argument);

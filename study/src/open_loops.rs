@@ -5,8 +5,7 @@ use abbe::{Description, Error, Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::{Diagnostics, Spec, mistake};
 
-use crate::closing::Closing;
-use crate::number;
+use crate::{Closing, number};
 
 /// Number of halvings that find where the path ends.
 const HALVINGS: i32 = 20;

@@ -2,9 +2,15 @@
 //!
 //! Options of a job are in `options.rs` of its folder.
 
+use std::fmt::Display;
 use std::ops::RangeInclusive;
 
-use abbe_spec::DhConvention;
+use abbe::LengthUnit;
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::parse_value;
+use abbe_spec::{DhConvention, Document};
+
+use crate::Result;
 
 /// Valid numbers of threads.
 pub const THREADS: RangeInclusive<usize> = 1..=1024;
@@ -38,6 +44,19 @@ impl<T: Copy + PartialEq> Choices<T> {
     pub fn name(self, wanted: T) -> &'static str {
         self.0.iter().find(|(value, ..)| *value == wanted).map_or("", |(_, name, _)| name)
     }
+}
+
+/// Reads the value of an option, in coherent units. `what` is its name in messages.
+pub fn quantity(
+    option: impl Display,
+    text: &str,
+    length: LengthUnit,
+    dimension: Dimension,
+    what: &str,
+) -> Result<f64> {
+    let document = Document::new(option, text);
+    let value = parse_value(&document, 0..text.len(), length, dimension, what);
+    document.finish(value)
 }
 
 /// Checks that a share is between 0 and 1.

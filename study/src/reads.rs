@@ -8,8 +8,7 @@ use crate::export::{Export, Format};
 use crate::generate::Generate;
 use crate::import::Import;
 use crate::jacobian::Jacobian;
-use crate::machine::Machine;
-use crate::study_file::Study;
+use crate::{Machine, Study};
 
 /// Access to the files that an input was read from.
 pub trait Reads {

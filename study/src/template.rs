@@ -1,9 +1,10 @@
 //! Spec templates: starter files with comments for common kinds of machines.
 
+use abbe_spec::check_name;
 use abbe_spec::edit::Edits;
 use abbe_spec::edit::write::quoted;
-use abbe_spec::{Diagnostics, check_name};
 
+use crate::Result;
 use crate::options::Choices;
 
 /// Kind of machine with a template.
@@ -47,7 +48,7 @@ impl Template {
     /// # Errors
     ///
     /// The name is not valid for a manipulator.
-    pub fn spec(self, name: &str) -> Result<String, Diagnostics> {
+    pub fn spec(self, name: &str) -> Result<String> {
         check_name("NAME", name)?;
         let named = Edits::apply(self.text(), |root, edits| {
             edits.set(&root.get("manipulator")?, "name", quoted(name));

@@ -130,10 +130,7 @@ impl<'a> BudgetSweep<'a> {
                 blocks.iter().for_each(|block| block.visit(&mut here, &mut |row| watch.row(row)));
                 let done = self.configurations(&part.chunks).end;
                 total.put(part);
-                match watch.done(done) {
-                    true => ControlFlow::Continue(()),
-                    false => ControlFlow::Break(()),
-                }
+                if watch.done(done) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         )?;
         Ok(total)

@@ -1,7 +1,6 @@
 //! Covariance of the error of the tool point, and its 95 % ellipsoid.
 
-use crate::Measurand;
-use crate::normal::Principal;
+use crate::{Measurand, Principal};
 use abbe_core::{Distribution, Source};
 
 /// The 95 % quantiles of χ² with one, two and three degrees of freedom, the rank of the covariance

@@ -1,8 +1,7 @@
 //! The error budget of a workspace, its options, and its progress callbacks.
 
 use super::{Combined, SourceErrors};
-use crate::sweep::Row;
-use crate::{Measurand, UnreachableSummary};
+use crate::{Measurand, Row, UnreachableSummary};
 
 /// Error budget: effects of the sources of a manipulator over a workspace, to first order.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,11 +3,10 @@
 use core::ops::Range;
 
 use super::aligned_sums::AlignedSums;
-use super::combined;
 use super::least_likely::{self, LeastLikely};
 use super::source_errors::{self, PartialSourceErrors};
 use super::sums::{SourceKinds, Sums};
-use super::{Combined, Ellipsoid, SourceErrors, covariance};
+use super::{Combined, Ellipsoid, SourceErrors, combined, covariance};
 use crate::{Measurand, Row};
 use abbe_core::lanes::{Lanes, Register, Tiles};
 use abbe_core::{Scalar, Source};

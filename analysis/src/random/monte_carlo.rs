@@ -1,8 +1,9 @@
 //! Monte Carlo simulation at one configuration, on the exact chain with exact rotations.
 
 use super::Quantile;
-use crate::sweep::in_order;
-use crate::{Configuration, Ellipsoid, ErrorParts, Measurand, Sweepable, Unevaluated, covariance, sweep};
+use crate::{
+    Configuration, Ellipsoid, ErrorParts, Measurand, Sweepable, Unevaluated, covariance, in_order, sweep,
+};
 use abbe_core::{Error, Pose, deviation, drawn_pose, repeatable_magnitudes};
 use abbe_kinematics::one;
 use abbe_kinematics::sampling::{norm, stream};

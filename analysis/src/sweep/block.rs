@@ -9,8 +9,7 @@ use abbe_core::lanes::{InstructionSet, Kernel, Lanes, Register, Sweepable, Tiles
 use abbe_core::{Class, Error, Function, MINIMUM_MARGIN, Orientation, Pose, Quantity, Scalar, checks};
 use abbe_kinematics::STREAM;
 
-use super::in_order::in_order;
-use super::{Row, Unevaluated};
+use super::{Row, Unevaluated, in_order};
 use crate::{Configuration, ErrorParts, Measurand, ReachError, Unreachable, UnreachableSummary, Workspace};
 
 /// Block of configurations: a buffer that is evaluated repeatedly.

@@ -10,8 +10,7 @@ use rand_distr::StandardNormal;
 use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
 use crate::normal::{NormalVector, ONE_SIDED_95, PROBABILITY_ERROR};
 use crate::parts::{longest, outer_sum};
-use crate::sweep::in_order;
-use crate::{Measurand, worst_case};
+use crate::{Measurand, in_order, worst_case};
 
 /// Coverage probability of an expanded uncertainty.
 pub const COVERAGE: f64 = 0.95;

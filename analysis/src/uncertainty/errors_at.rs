@@ -4,8 +4,7 @@ use rand::{Rng, RngExt};
 use rand_distr::StudentT;
 
 use crate::parts::{longest, outer_sum};
-use crate::sweep::sweep;
-use crate::{Configuration, Measurand, Unevaluated};
+use crate::{Configuration, Measurand, Unevaluated, sweep};
 use abbe_core::lanes::Sweepable;
 use abbe_core::{Class, Description, Distribution, Error};
 use abbe_kinematics::one;

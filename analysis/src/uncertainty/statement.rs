@@ -2,8 +2,7 @@
 
 use super::error_distribution::{COVERAGE, Compliance, ErrorDistribution};
 use super::errors_at::{ErrorsAt, RandomError, covariance};
-use crate::Measurand;
-use crate::normal::{Principal, StudentVector};
+use crate::{Measurand, Principal, StudentVector};
 use abbe_core::{Component, Distribution};
 
 /// Normal coverage factor `Φ⁻¹((1 + 0.95)/2)`.

@@ -25,8 +25,7 @@ fn run_length(lambda: f64, limit: f64, count: usize) -> f64 {
         h * weight / lambda * (-0.5 * x * x).exp() / TAU.sqrt()
     };
     let entry = |i: usize, j: usize| f64::from(u8::from(i == j)) - kernel(h * nodes[i].0, nodes[j]);
-    let matrix = DMatrix::from_fn(count, count, entry);
-    let at_nodes = matrix.lu().solve(&DVector::repeat(count, 1.0));
+    let at_nodes = DMatrix::from_fn(count, count, entry).lu().solve(&DVector::repeat(count, 1.0));
     at_nodes.map_or(f64::INFINITY, |lengths| {
         1.0 + nodes.iter().zip(lengths.iter()).map(|(node, length)| kernel(0.0, *node) * length).sum::<f64>()
     })

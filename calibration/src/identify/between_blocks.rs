@@ -15,9 +15,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linearize::{linearize, with_priors};
-use super::statistics::f_beyond;
-use super::{Configurations, Failure, Fit, Folds, Model, Observation};
+use super::{Configurations, Fit, Folds, Model, Observation, Result, f_beyond, linearize, with_priors};
 use abbe_analysis::in_order;
 
 /// Variance of a fit between blocks.
@@ -56,7 +54,7 @@ pub fn between_blocks(
     data: &[Observation],
     fit: &Fit,
     blocks: &Folds,
-) -> Result<Option<BetweenBlocks>, Failure> {
+) -> Result<Option<BetweenBlocks>> {
     let (kept, x) = fit.of_kept(model);
     let p = x.len();
     let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &fit.prior, &x);

@@ -15,8 +15,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::triangle::Triangle;
-use super::{Failure, Fit, Model, Observation};
+use super::{Fit, Model, Observation, Result, Triangle};
 
 /// Smallest and largest τ that are tried, and their number on a logarithmic scale.
 const SMALLEST: f64 = 1e-6;
@@ -51,7 +50,7 @@ pub fn between_stations(
     data: &[Observation],
     fit: &Fit,
     sizes: &[Option<f64>],
-) -> Result<Option<BetweenStations>, Failure> {
+) -> Result<Option<BetweenStations>> {
     let (kept, x) = fit.of_kept(model);
     let p = x.len();
     let (mut series, mut squares, mut freedom) = (Vec::new(), 0.0, 0.0);

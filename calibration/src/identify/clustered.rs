@@ -33,10 +33,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DMatrixView, DVector, DVectorView};
 
-use super::linearize::by_blocks;
-use super::solver::Solver;
-use super::triangle::Triangle;
-use super::{Configurations, Failure, Measurement, f_test};
+use super::{Configurations, Measurement, Result, Solver, Triangle, by_blocks, f_test};
 use abbe_analysis::decompose::symmetric_eigen;
 
 /// Independence assumption of a covariance.
@@ -71,7 +68,7 @@ pub(super) const POSE: usize = 6;
 
 impl Solver<'_> {
     /// Computes the covariance at the solution, without rows of weight zero.
-    pub(super) fn known(&self) -> Result<Known, Failure> {
+    pub(super) fn known(&self) -> Result<Known> {
         let used = || (0..self.data.len()).filter(|i| self.weights[*i] > 0.0);
         let data = || used().map(|i| &self.data[i]);
         let configurations = Configurations::new(data());
@@ -122,11 +119,7 @@ impl Solver<'_> {
     }
 
     /// Computes covariance, σ and degrees of freedom for points visited repeatedly.
-    fn visits(
-        &self,
-        groups: &[&[usize]],
-        [n, means]: [usize; 2],
-    ) -> Result<(DMatrix<f64>, f64, f64), Failure> {
+    fn visits(&self, groups: &[&[usize]], [n, means]: [usize; 2]) -> Result<(DMatrix<f64>, f64, f64)> {
         let p = self.x.len();
         let block = |_: usize, groups: &[&[usize]]| {
             let mut at = self.at();
@@ -185,7 +178,7 @@ impl Solver<'_> {
 
     /// Computes covariance and σ where the numbers of a configuration have errors of any
     /// correlation.
-    fn sandwich(&self, groups: &[&[usize]], n: usize) -> Result<(DMatrix<f64>, f64), Failure> {
+    fn sandwich(&self, groups: &[&[usize]], n: usize) -> Result<(DMatrix<f64>, f64)> {
         let p = self.x.len();
         let Some(l) = self.problem.half() else {
             return Ok((DMatrix::from_element(p, p, f64::INFINITY), f64::INFINITY));
@@ -247,7 +240,7 @@ impl Solver<'_> {
     }
 
     /// Returns whether these rows are views of a camera whose pixels have independent errors.
-    fn has_independent_pixels(&self, rows: &[usize]) -> Result<bool, Failure> {
+    fn has_independent_pixels(&self, rows: &[usize]) -> Result<bool> {
         let Some(camera) = &self.model.camera else { return Ok(false) };
         let is_view = |i: &usize| matches!(self.data[*i].measured, Measurement::Readings(_));
         if !rows.iter().all(is_view) {

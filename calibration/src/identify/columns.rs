@@ -8,8 +8,7 @@
 //! columns of `J_e`.
 
 use abbe_analysis::sampling::vectors::cross;
-use abbe_core::displacement;
-use abbe_core::{Component, Pose, Scalar};
+use abbe_core::{Component, Pose, Scalar, displacement};
 
 /// Axes, origin and pose of a frame with its errors.
 #[derive(Clone, Copy, Debug)]

@@ -55,10 +55,8 @@ impl Numbering {
     }
 
     pub(super) fn number(&mut self, key: u32) -> u32 {
-        let known = match self.dense.get_mut(key as usize) {
-            Some(known) => known,
-            None => self.sparse.entry(key).or_insert(Self::NONE),
-        };
+        let known = self.dense.get_mut(key as usize);
+        let known = known.unwrap_or_else(|| self.sparse.entry(key).or_insert(Self::NONE));
         if *known == Self::NONE {
             (*known, self.count) = (self.count, self.count + 1);
         }

@@ -6,9 +6,8 @@
 //! base](super::InstrumentKind::sees_base).
 
 use super::columns::Frame;
-use super::evaluated_model::EvaluatedModel;
 use super::instrument::{Evaluation, Geometry};
-use super::{FixtureGeometry, Reference, Unknown};
+use super::{EvaluatedModel, FixtureGeometry, Reference, Unknown};
 use abbe_analysis::sampling::vectors::{dot, tangents};
 use abbe_core::Component;
 

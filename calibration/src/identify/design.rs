@@ -15,7 +15,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::information::{Candidates, Criterion, Information};
-use super::{Failure, Identifiable, Model, Observation, ToolPoints};
+use super::{Identifiable, Model, Observation, Result, ToolPoints};
 use abbe_analysis::sampling;
 
 /// Objective of a design.
@@ -71,7 +71,7 @@ pub fn optimal(
     count: usize,
     objective: &Objective<'_>,
     progress: &mut dyn FnMut(usize, usize),
-) -> Result<Option<Design>, Failure> {
+) -> Result<Option<Design>> {
     let search = Search::new(model, candidates, identifiable, objective, progress)?;
     let n = candidates.len();
     if count > n || count == 0 {
@@ -99,7 +99,7 @@ pub fn whole(
     identifiable: &Identifiable,
     objective: &Objective<'_>,
     progress: &mut dyn FnMut(usize, usize),
-) -> Result<Option<Design>, Failure> {
+) -> Result<Option<Design>> {
     let search = Search::new(model, list, identifiable, objective, progress)?;
     Ok(search.design((0..list.len()).collect(), 0))
 }
@@ -137,7 +137,7 @@ impl Search {
         identifiable: &Identifiable,
         objective: &Objective<'_>,
         progress: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
         let mut all = Candidates::new(&kept, candidates, objective.model_error, progress)?;
         let lengths = all.normalize();

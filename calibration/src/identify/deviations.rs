@@ -2,9 +2,7 @@
 
 use core::borrow::Borrow;
 
-use super::evaluated_model::EvaluatedModel;
-use super::linearize::by_blocks;
-use super::{Camera, Distances, Failure, Figures, Measurement, Model, Observation};
+use super::{Camera, Distances, EvaluatedModel, Figures, Measurement, Model, Observation, Result, by_blocks};
 use abbe_analysis::sampling;
 use abbe_analysis::sampling::vectors::subtract as difference;
 use abbe_core::Pose;
@@ -16,7 +14,7 @@ impl EvaluatedModel<'_> {
     /// A reading of a length has an error along its gradient, an instrument that reads three
     /// coordinates one vector; angles have none. A corner that a camera sees has its vector from
     /// the line of sight of its pixel.
-    pub fn deviations(&mut self, observation: &Observation) -> Result<Vec<[f64; 3]>, Failure> {
+    pub fn deviations(&mut self, observation: &Observation) -> Result<Vec<[f64; 3]>> {
         let mut values = Vec::new();
         self.each_deviation(observation, |deviation| values.push(deviation))?;
         Ok(values)
@@ -27,7 +25,7 @@ impl EvaluatedModel<'_> {
         &mut self,
         observation: &Observation,
         mut take: impl FnMut([f64; 3]),
-    ) -> Result<(), Failure> {
+    ) -> Result<()> {
         let model = self.model;
         self.chain(observation)?;
         let last = self.tool_pose();
@@ -64,7 +62,7 @@ impl EvaluatedModel<'_> {
     }
 
     /// Returns the norms of the [deviations](Self::deviations).
-    pub fn distances(&mut self, observation: &Observation) -> Result<Vec<f64>, Failure> {
+    pub fn distances(&mut self, observation: &Observation) -> Result<Vec<f64>> {
         Ok(self.deviations(observation)?.into_iter().map(sampling::norm).collect())
     }
 }
@@ -99,16 +97,12 @@ impl Model<'_> {
     }
 
     /// Computes the figures of the position errors of all observations at `x`; the length unit.
-    pub fn figures<R: Borrow<Observation> + Sync>(&self, rows: &[R], x: &[f64]) -> Result<Figures, Failure> {
+    pub fn figures<R: Borrow<Observation> + Sync>(&self, rows: &[R], x: &[f64]) -> Result<Figures> {
         Ok(self.all_distances(rows, x)?.into_figures())
     }
 
     /// Returns the norms of the position errors of all observations at `x`; the length unit.
-    pub fn all_distances<R: Borrow<Observation> + Sync>(
-        &self,
-        rows: &[R],
-        x: &[f64],
-    ) -> Result<Distances, Failure> {
+    pub fn all_distances<R: Borrow<Observation> + Sync>(&self, rows: &[R], x: &[f64]) -> Result<Distances> {
         self.distances_where(rows, |_| Some(x))
     }
 
@@ -118,7 +112,7 @@ impl Model<'_> {
         &self,
         rows: &[R],
         x: impl Fn(usize) -> Option<&'x [f64]> + Sync,
-    ) -> Result<Distances, Failure> {
+    ) -> Result<Distances> {
         let block = |first: usize, rows: &[R]| {
             let mut here = self.at(&[]);
             let mut norms = Vec::with_capacity(rows.len());

@@ -13,8 +13,7 @@ use core::borrow::Borrow;
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 
-use super::linearize::by_blocks;
-use super::{Configurations, Failure, Model, Observation};
+use super::{Configurations, Model, Observation, Result, by_blocks};
 use abbe_analysis::sampling::{norm, stream};
 
 /// Correlation of residuals with time.
@@ -54,11 +53,7 @@ const SETTLING: [f64; 3] = [0.03, 0.1, 0.3];
 ///
 /// Errors are recomputed when needed instead of stored, so that memory does not grow with the
 /// number of rows.
-pub fn drift<R: Borrow<Observation> + Sync>(
-    model: &Model,
-    rows: &[R],
-    x: &[f64],
-) -> Result<Option<Drift>, Failure> {
+pub fn drift<R: Borrow<Observation> + Sync>(model: &Model, rows: &[R], x: &[f64]) -> Result<Option<Drift>> {
     let row = |i: u32| rows[i as usize].borrow();
     let time = |i: u32| row(i).time().unwrap_or(f64::from(i));
     let mut order: Vec<u32> = (0..rows.len() as u32).filter(|i| model.has_deviations(row(*i))).collect();
@@ -101,9 +96,9 @@ struct Timed<'o> {
     errors: &'o Errors<'o>,
 }
 
-type Errors<'o> = dyn Fn(&mut dyn FnMut([f64; 3])) -> Result<(), Failure> + 'o;
+type Errors<'o> = dyn Fn(&mut dyn FnMut([f64; 3])) -> Result<()> + 'o;
 
-fn test_drift(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drift>, Failure> {
+fn test_drift(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drift>> {
     let configurations = Configurations::new((0..count).map(row));
     let visits = configurations.visits();
     let at = |i: usize| configurations.number[i] as usize;

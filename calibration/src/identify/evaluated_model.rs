@@ -2,7 +2,7 @@
 //! zeros.
 
 use super::columns::{Displaced, Frame};
-use super::{Camera, Failure, Model, Observation, Role, Unknown};
+use super::{Camera, Failure, Model, Observation, Result, Role, Unknown};
 use abbe_analysis::sampling::vectors::cross;
 use abbe_core::{Component, Error, Pose, Quantity, drawn_pose, tool_pose, twist};
 
@@ -174,7 +174,7 @@ impl EvaluatedModel<'_> {
     }
 
     /// Computes the poses of all frames at an observation, and those of the previous row if needed.
-    pub(super) fn chain(&mut self, observation: &Observation) -> Result<(), Failure> {
+    pub(super) fn chain(&mut self, observation: &Observation) -> Result<()> {
         let model = self.model;
         let station = model.stations.get(observation.station as usize).ok_or(Failure::Observation {
             line: observation.line,
@@ -260,7 +260,7 @@ impl EvaluatedModel<'_> {
     }
 
     /// Returns the pose of the tool in the frame of the instrument; ignores the measurement.
-    pub fn pose(&mut self, observation: &Observation) -> Result<Pose, Failure> {
+    pub fn pose(&mut self, observation: &Observation) -> Result<Pose> {
         self.chain(observation)?;
         Ok(self.tool_pose())
     }

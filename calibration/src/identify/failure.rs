@@ -5,6 +5,9 @@ use core::fmt;
 use super::Observation;
 use abbe_core::{Error, Quantity, Remedy};
 
+/// A result whose error, unless another one is named, is a [`Failure`].
+pub(super) type Result<T, E = Failure> = core::result::Result<T, E>;
+
 /// Reason why identification has no result.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {

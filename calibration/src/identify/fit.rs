@@ -5,8 +5,9 @@ use nalgebra::DMatrix;
 use super::clustered::{Independent, Known};
 use super::identifiable::Columns;
 use super::prior::Basis;
-use super::solver::Solver;
-use super::{Configurations, Failure, Identifiable, Loss, Model, Observation, Unknown, identifiable};
+use super::{
+    Configurations, Failure, Identifiable, Loss, Model, Observation, Result, Solver, Unknown, identifiable,
+};
 
 /// Observations with a smaller weight count as rejected.
 pub(super) const REJECTED: f64 = 0.05;
@@ -167,7 +168,7 @@ fn mixed(data: &[Observation]) -> Vec<Observation> {
 /// at zero; see [`identifiable()`]. Known sources do not take part in that decision: an error that
 /// varies over the workspace makes equivalent unknowns differ by a second-order amount that real
 /// data do not resolve.
-pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit, Failure> {
+pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit> {
     let mut at = options.at.clone();
     at.resize(model.unknowns.len(), 0.0);
     let plain = model.without_known_sources();

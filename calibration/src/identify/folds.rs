@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::fit::REJECTED;
-use super::linearize::{push_distances, with_priors};
-use super::triangle::{Problem, Triangle};
-use super::{Configurations, Distances, Failure, Fit, Model, Observation};
+use super::{
+    Configurations, Distances, Fit, Model, Observation, Problem, REJECTED, Result, Triangle, push_distances,
+    with_priors,
+};
 use abbe_analysis::in_order;
 use abbe_analysis::sampling::{halton, range_of};
 
@@ -98,7 +98,7 @@ fn triangles(
     x: &[f64],
     weights: &[f64],
     folds: &Folds,
-) -> Result<Vec<Triangle>, Failure> {
+) -> Result<Vec<Triangle>> {
     let one = |fold: usize| {
         let mut triangle = Triangle::new(model.unknowns.len());
         let mut at = model.at(x);
@@ -119,12 +119,7 @@ fn triangles(
 ///
 /// Each fit is one Gauss-Newton step from the converged fit of all data; its error is of second
 /// order in a small difference.
-pub fn cross_validate(
-    model: &Model,
-    data: &[Observation],
-    fit: &Fit,
-    folds: &Folds,
-) -> Result<Distances, Failure> {
+pub fn cross_validate(model: &Model, data: &[Observation], fit: &Fit, folds: &Folds) -> Result<Distances> {
     let (kept, x) = fit.of_kept(model);
     let parts = triangles(&kept, data, &x, &fit.weights, folds)?;
     let solve = |left_out: usize| {

@@ -8,8 +8,7 @@
 
 use super::{Model, Unknown};
 use abbe_analysis::sampling::vectors::cross;
-use abbe_core::rotation_vector;
-use abbe_core::{Component, Error, Pose, VariableKind};
+use abbe_core::{Component, Error, Pose, VariableKind, rotation_vector};
 
 /// A combination of errors and its equivalent.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector3};
 
-use super::{Failure, Measurement, Model, Observation};
+use super::{Measurement, Model, Observation, Result};
 use abbe_analysis::decompose::{svd3, symmetric_eigen};
 use abbe_core::Pose;
 
@@ -16,7 +16,7 @@ impl Model<'_> {
     /// the tool that explain measured poses best, without any start value.
     ///
     /// Returns none if the tool does not turn about two axes in these rows.
-    pub fn hand_eye(&self, rows: &[Observation], station: usize) -> Result<Option<[Pose; 2]>, Failure> {
+    pub fn hand_eye(&self, rows: &[Observation], station: usize) -> Result<Option<[Pose; 2]>> {
         let mut bare = Self { mountings: vec![Pose::IDENTITY; self.mountings.len()], ..self.clone() };
         bare.stations[station].pose = Pose::IDENTITY;
         let mut bare = bare.at(&vec![0.0; self.unknowns.len()]);

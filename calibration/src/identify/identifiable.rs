@@ -8,8 +8,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linearize::linearize;
-use super::{Failure, Model, Observation, Unknown};
+use super::{Failure, Model, Observation, Result, Unknown, linearize};
 use abbe_analysis::decompose::singular_values;
 
 /// Relative threshold of the singular values of the matrix with columns of unit length; smaller
@@ -84,7 +83,7 @@ pub struct Weak {
 /// base, and the error of the [reference length](super::ReferenceLength); other magnitudes. An
 /// error is attributed to the machine only if neither the placement of the machine nor the mounting
 /// on its tool explains it.
-pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Identifiable, Failure> {
+pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Identifiable> {
     knowable(model, data, x, &[])
 }
 
@@ -96,7 +95,7 @@ pub fn knowable(
     data: &[Observation],
     x: &[f64],
     expected: &[Option<f64>],
-) -> Result<Identifiable, Failure> {
+) -> Result<Identifiable> {
     Ok(Columns::of_rows(model, data, x)?.with_expected(expected).knowable(model))
 }
 
@@ -139,7 +138,7 @@ pub(super) struct Columns {
 
 impl Columns {
     /// Computes the derivatives of rows at `x`.
-    pub(super) fn of_rows(model: &Model, data: &[Observation], x: &[f64]) -> Result<Self, Failure> {
+    pub(super) fn of_rows(model: &Model, data: &[Observation], x: &[f64]) -> Result<Self> {
         let p = model.unknowns.len();
         let all = linearize(model, data, x, None)?.finish().columns(0, p).into_owned();
         Self::of_matrix(all).ok_or_else(|| Failure::not_finite(data))

@@ -5,9 +5,7 @@ use core::convert::Infallible;
 use nalgebra::allocator::Allocator;
 use nalgebra::{Cholesky, Const, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
-use super::evaluated_model::EvaluatedModel;
-use super::linearize::by_blocks;
-use super::{Failure, Measurement, Model, Observation};
+use super::{EvaluatedModel, Measurement, Model, Observation, Result, by_blocks};
 use abbe_analysis::decompose::symmetric_eigen;
 use abbe_analysis::in_order;
 
@@ -50,7 +48,7 @@ impl Candidates {
         list: &[Observation],
         model_error: f64,
         progress: &mut dyn FnMut(usize, usize),
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let (p, count) = (model.unknowns.len(), list.len());
         let most = list.iter().map(Observation::count).max().unwrap_or_default();
         let rows = model.camera.map_or(most, |camera| most.min(camera.rank()));
@@ -234,7 +232,7 @@ impl Information {
 impl EvaluatedModel<'_> {
     /// Replaces the measurement by that of this machine, where derivatives depend on it: the
     /// derivative of a rotation vector depends on the residual.
-    pub fn nominally_seen(&mut self, observation: &Observation) -> Result<Observation, Failure> {
+    pub fn nominally_seen(&mut self, observation: &Observation) -> Result<Observation> {
         let mut expected = observation.clone();
         if let Measurement::Pose(pose) = &mut expected.measured {
             **pose = self.pose(observation)?;

@@ -3,9 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::evaluated_model::EvaluatedModel;
-use super::triangle::{Problem, Triangle};
-use super::{Failure, Model, Observation};
+use super::{EvaluatedModel, Model, Observation, Problem, Result, Triangle};
 use abbe_analysis::in_order;
 
 /// Accumulates residuals and derivatives of all observations and known distances at `x`, with
@@ -15,7 +13,7 @@ pub(super) fn linearize(
     data: &[Observation],
     x: &[f64],
     weights: Option<&[f64]>,
-) -> Result<Triangle, Failure> {
+) -> Result<Triangle> {
     let block = |first: usize, rows: &[Observation]| {
         let mut triangle = Triangle::new(model.unknowns.len());
         let mut at = model.at(x);
@@ -35,7 +33,7 @@ pub(super) fn linearize(
 
 impl EvaluatedModel<'_> {
     /// Appends the rows of one observation: a step solves `J dx = −r`.
-    pub(super) fn push(&mut self, row: &Observation, weight: f64, to: &mut Triangle) -> Result<(), Failure> {
+    pub(super) fn push(&mut self, row: &Observation, weight: f64, to: &mut Triangle) -> Result<()> {
         let weight = weight.sqrt();
         self.linear(row, |residual, derivatives| to.push(derivatives, -residual, weight))
     }
@@ -61,9 +59,9 @@ const ROWS: usize = 512;
 /// takes the results in order.
 pub(super) fn by_blocks<R: Sync, T: Send>(
     rows: &[R],
-    make: impl Fn(usize, &[R]) -> Result<T, Failure> + Sync,
+    make: impl Fn(usize, &[R]) -> Result<T> + Sync,
     take: impl FnMut(T),
-) -> Result<(), Failure> {
+) -> Result<()> {
     let block = |block| {
         let first = block * ROWS;
         make(first, &rows[first..rows.len().min(first + ROWS)])

@@ -105,6 +105,12 @@ mod variance;
 #[cfg(test)]
 mod tests;
 
+use failure::Result;
+use fit::REJECTED;
+use linearize::{by_blocks, linearize, push_distances, with_priors};
+use solver::{Residuals, Solver};
+use triangle::{Problem, Triangle};
+
 pub use between_blocks::{BetweenBlocks, between_blocks};
 pub use between_stations::{BetweenStations, between_stations};
 pub use board_pose::BoardView;

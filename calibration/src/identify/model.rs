@@ -9,7 +9,9 @@
 
 use std::ops::Range;
 
-use super::{Camera, Failure, Fixture, FixtureGeometry, INTRINSICS, KnownDistance, Observable, Uncertainty};
+use super::{
+    Camera, Failure, Fixture, FixtureGeometry, INTRINSICS, KnownDistance, Observable, Result, Uncertainty,
+};
 use abbe_analysis::sampling;
 use abbe_core::{Class, Component, Manipulator, Pose};
 
@@ -173,7 +175,7 @@ impl<'a> Model<'a> {
     }
 
     /// Returns the size of the machine in its length unit.
-    pub fn arm_length(&self) -> Result<f64, Failure> {
+    pub fn arm_length(&self) -> Result<f64> {
         sampling::arm_length_within(self.manipulator, &self.s, &self.ranges).map_err(Failure::Machine)
     }
 
@@ -284,7 +286,7 @@ impl<'a> Model<'a> {
     /// Places of base and tool are known to a hundredth of the length of the arm and of a radian,
     /// those of fixtures to a tenth of that length, their directions to about one degree, and
     /// intrinsic parameters to what lenses have; zeros and magnitudes have none.
-    pub fn priors(&self, share: f64) -> Result<Vec<Option<f64>>, Failure> {
+    pub fn priors(&self, share: f64) -> Result<Vec<Option<f64>>> {
         let length = self.arm_length()?;
         let prior = |unknown: &Unknown| match unknown {
             Unknown::Error(_, component) if component.is_rotation() => Some(share),
@@ -305,8 +307,7 @@ impl<'a> Model<'a> {
 
     /// Returns the indices of the repeatable sources.
     pub fn repeatable(&self) -> Vec<usize> {
-        let description = self.manipulator.description();
-        let all = description.sources.iter().enumerate();
+        let all = self.manipulator.description().sources.iter().enumerate();
         all.filter(|(_, source)| source.class == Class::Repeatable).map(|(i, _)| i).collect()
     }
 

@@ -25,8 +25,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::statistics::f_test;
-use super::{Failure, Model, Observation, Unknown};
+use super::{Model, Observation, Result, Unknown, f_test};
 
 /// A place that is not where the model has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,7 +136,7 @@ pub fn moved_places<R: Borrow<Observation>>(
     rows: &[R],
     x: &[f64],
     places: &[Vec<Unknown>],
-) -> Result<[Option<MovedPlace>; 2], Failure> {
+) -> Result<[Option<MovedPlace>; 2]> {
     let (mut extended, mut columns) = (model.clone(), Vec::new());
     for place in places {
         let (unknowns, mut own) = (&mut extended.unknowns, Vec::new());

@@ -8,12 +8,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::clustered::Known;
-use super::fit::REJECTED;
-use super::linearize::by_blocks;
 use super::robust::robust_scale_after;
-use super::solver::{Residuals, Solver};
-use super::statistics::f_beyond;
-use super::{Configurations, Failure, Folds, Loss, Observation, Options};
+use super::{
+    Configurations, Failure, Folds, Loss, Observation, Options, REJECTED, Residuals, Result, Solver,
+    by_blocks, f_beyond,
+};
 
 /// Probability that any good row is rejected.
 const CHANCE: f64 = 0.01;
@@ -30,7 +29,7 @@ const TRIES: usize = 8;
 impl Solver<'_> {
     /// Rejects outliers if the loss does, and iterates to convergence. Returns the covariance if it
     /// was computed on the way.
-    pub(super) fn solve(&mut self, options: &Options) -> Result<Option<Known>, Failure> {
+    pub(super) fn solve(&mut self, options: &Options) -> Result<Option<Known>> {
         let known = match options.loss {
             Loss::Squares => None,
             loss => self.reject_outliers(loss, options.steps)?,
@@ -44,7 +43,7 @@ impl Solver<'_> {
     /// Sets the weights to 0 for outliers and 1 for all others.
     ///
     /// `steps` limits each fit. Returns the covariance if it was computed on the way.
-    fn reject_outliers(&mut self, loss: Loss, steps: usize) -> Result<Option<Known>, Failure> {
+    fn reject_outliers(&mut self, loss: Loss, steps: usize) -> Result<Option<Known>> {
         let places = self.places_by_number();
         if self.data.len() > 2 * PART {
             let folds = Folds::new(self.data, self.data.len() / PART);
@@ -93,7 +92,7 @@ impl Solver<'_> {
     /// Huber's loss converges from any start and determines the scale; the requested loss then uses
     /// that scale. An iteration is one step and evaluates only the residuals at its end; `Σ ρ` must
     /// decrease.
-    fn rounds(&mut self, loss: Loss, visits: f64) -> Result<(f64, Vec<f64>), Failure> {
+    fn rounds(&mut self, loss: Loss, visits: f64) -> Result<(f64, Vec<f64>)> {
         let spent = (self.x.len() as f64 * visits) as usize;
         let scale_of = |mut all: Vec<f64>| robust_scale_after(&mut all, spent).max(1e-300);
         let Residuals { all, mut norms } = self.residuals(&self.x)?;
@@ -141,7 +140,7 @@ impl Solver<'_> {
     }
 
     /// Returns the rejected rows whose distance is not significant.
-    fn could_be_chance(&self, known: &Known) -> Result<Vec<usize>, Failure> {
+    fn could_be_chance(&self, known: &Known) -> Result<Vec<usize>> {
         let Some(l) = self.problem.half() else { return Ok(Vec::new()) };
         let left_out: Vec<usize> = (0..self.data.len()).filter(|i| self.weights[*i] == 0.0).collect();
         let block = |_: usize, rows: &[usize]| {

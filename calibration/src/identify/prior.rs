@@ -12,9 +12,9 @@ use abbe_core::{Component, Pose};
 use nalgebra::DMatrix;
 
 use super::identifiable::{Columns, by_preference};
-use super::solver::Solver;
-use super::triangle::Problem;
-use super::{Failure, Measurement, Model, Observation, Station, Uncertainty, Unknown, Values};
+use super::{
+    Failure, Measurement, Model, Observation, Problem, Result, Solver, Station, Uncertainty, Unknown, Values,
+};
 
 /// Number of configurations at which poses are compared.
 const CONFIGURATIONS: usize = 60;
@@ -42,7 +42,7 @@ impl Basis {
         x: &[f64],
         seen: &Columns,
         deviations: &[Option<f64>],
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let is_placement = |k: &usize| model.unknowns[*k].is_placement();
         // A place that does not move a number as far as it is uncertain stays as stated: only terms
         // of second order tell where it is.
@@ -124,7 +124,7 @@ fn equivalents(columns: &Columns, kept: &[usize], indices: &[usize]) -> Vec<(usi
 
 /// Returns rows like those of the data at configurations within the joint limits, as the model
 /// measures them without errors; none of a camera, which does not see its board everywhere.
-fn elsewhere(model: &Model, data: &[Observation]) -> Result<Vec<Observation>, Failure> {
+fn elsewhere(model: &Model, data: &[Observation]) -> Result<Vec<Observation>> {
     let moved: Vec<usize> = (0..model.manipulator.description().variables.len()).collect();
     let samples = joint_samples(model.manipulator, &moved, CONFIGURATIONS).map_err(Failure::Machine)?;
     let step = data.len().div_ceil(CONFIGURATIONS).max(1);
@@ -149,7 +149,7 @@ fn elsewhere(model: &Model, data: &[Observation]) -> Result<Vec<Observation>, Fa
 
 /// Returns the derivatives of whole poses, in sizes of the machine and rad, with respect to what is
 /// set up anew, followed by the unknowns of `errors`; and the number of the former.
-fn poses(errors: &Model, model: &Model, data: &[Observation]) -> Result<(Columns, usize), Failure> {
+fn poses(errors: &Model, model: &Model, data: &[Observation]) -> Result<(Columns, usize)> {
     let is_any = |is: fn(&Unknown) -> bool| model.unknowns.iter().any(is);
     let base = is_any(|unknown| matches!(unknown, Unknown::Base(..) | Unknown::Fixture(..)));
     let base = Component::ALL.into_iter().filter(|_| base).map(|component| Unknown::Base(0, component));

@@ -3,15 +3,17 @@
 //! Known distances of fixtures have rows of one number each, beside those of the observations.
 
 use super::columns::turned;
-use super::evaluated_model::EvaluatedModel;
-use super::{Failure, FixtureGeometry, Measurement, Model, Observation, ReferenceLength, Unknown};
+use super::{
+    EvaluatedModel, Failure, FixtureGeometry, Measurement, Model, Observation, ReferenceLength, Result,
+    Unknown,
+};
 use abbe_analysis::sampling::vectors::{dot, subtract as difference, unit};
 use abbe_core::{Error, Pose, Quantity, rotation_vector};
 
 impl EvaluatedModel<'_> {
     /// Returns the value of each of the [observables](super::Model::observables); ignores the
     /// measurement.
-    pub fn values(&mut self, observation: &Observation) -> Result<Vec<f64>, Failure> {
+    pub fn values(&mut self, observation: &Observation) -> Result<Vec<f64>> {
         self.chain(observation)?;
         let geometry = self.geometry();
         Ok((0..self.model.observables.len()).map(|i| self.evaluate(&geometry, i).value).collect())
@@ -22,11 +24,7 @@ impl EvaluatedModel<'_> {
     ///
     /// There are three for each visible target, six for a pose (position, then rotation vector),
     /// one for each reading.
-    pub(super) fn residuals(
-        &mut self,
-        observation: &Observation,
-        mut take: impl FnMut(f64),
-    ) -> Result<(), Failure> {
+    pub(super) fn residuals(&mut self, observation: &Observation, mut take: impl FnMut(f64)) -> Result<()> {
         self.numbers::<false>(observation, |residual, _, _| take(residual))
     }
 
@@ -35,7 +33,7 @@ impl EvaluatedModel<'_> {
         &mut self,
         observation: &Observation,
         mut row: impl FnMut(f64, &[f64]),
-    ) -> Result<(), Failure> {
+    ) -> Result<()> {
         self.numbers::<true>(observation, |residual, derivatives, _| row(residual, derivatives))
     }
 
@@ -48,7 +46,7 @@ impl EvaluatedModel<'_> {
         &mut self,
         observation: &Observation,
         row: impl FnMut(f64, &[f64], &[f64]),
-    ) -> Result<(), Failure> {
+    ) -> Result<()> {
         self.numbers::<true>(observation, row)
     }
 
@@ -58,7 +56,7 @@ impl EvaluatedModel<'_> {
         &mut self,
         observation: &Observation,
         mut row: impl FnMut(f64, &[f64], &[f64]),
-    ) -> Result<(), Failure> {
+    ) -> Result<()> {
         let model = self.model;
         self.chain(observation)?;
         let weight = observation.weight.sqrt();
@@ -130,7 +128,7 @@ impl EvaluatedModel<'_> {
     }
 
     /// Returns the position of target `j` of the row's placement in the frame of the tool.
-    pub(super) fn target(&self, observation: &Observation, j: usize) -> Result<[f64; 3], Failure> {
+    pub(super) fn target(&self, observation: &Observation, j: usize) -> Result<[f64; 3]> {
         let found = || match &observation.measured {
             Measurement::Points(points) => points.len(),
             _ => 0,
@@ -144,21 +142,21 @@ impl EvaluatedModel<'_> {
 
     /// Returns measurement minus model at `x` for each number, and the derivatives of the model, in
     /// units of the uncertainty.
-    pub fn linearized(&mut self, observation: &Observation) -> Result<Vec<(f64, Vec<f64>)>, Failure> {
+    pub fn linearized(&mut self, observation: &Observation) -> Result<Vec<(f64, Vec<f64>)>> {
         let mut numbers = Vec::new();
         self.linear(observation, |residual, row| numbers.push((-residual, row.to_vec())))?;
         Ok(numbers)
     }
 
     /// Returns measurement minus model at `x` for each number, in units of the uncertainty.
-    pub fn differences(&mut self, observation: &Observation) -> Result<Vec<f64>, Failure> {
+    pub fn differences(&mut self, observation: &Observation) -> Result<Vec<f64>> {
         let mut numbers = Vec::new();
         self.residuals(observation, |residual| numbers.push(-residual))?;
         Ok(numbers)
     }
 
     /// Returns the pose of the tool, and the derivatives of its point with respect to each unknown.
-    pub fn tool(&mut self, observation: &Observation) -> Result<(Pose, Vec<[f64; 3]>), Failure> {
+    pub fn tool(&mut self, observation: &Observation) -> Result<(Pose, Vec<[f64; 3]>)> {
         let pose = self.pose(observation)?;
         let moves = (0..self.model.unknowns.len()).map(|k| self.point(k, usize::MAX, pose.position()));
         Ok((pose, moves.collect()))

@@ -17,9 +17,8 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::fit::REJECTED;
 use super::statistics::Scores;
-use super::{FTest, Failure, Fit, Folds, Model, Observation};
+use super::{FTest, Fit, Folds, Model, Observation, REJECTED, Result};
 
 /// A term: an unknown of the model times a factor that changes from row to row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,7 +72,7 @@ pub fn select(
     folds: &Folds,
     candidates: &CandidateTerms,
     proceed: &mut dyn FnMut() -> bool,
-) -> Result<Vec<Selection>, Failure> {
+) -> Result<Vec<Selection>> {
     let mut left_out = LeftOut::new(model, data, fit, folds, candidates)?;
     let mut selections: Vec<Selection> = Vec::new();
     while proceed() {
@@ -134,7 +133,7 @@ impl LeftOut {
         fit: &Fit,
         folds: &Folds,
         candidates: &CandidateTerms,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let plain = |unknown: &usize| ModelTerm { unknown: *unknown, factor: None };
         let mut terms: Vec<ModelTerm> = fit.identifiable.kept.iter().map(plain).collect();
         terms.extend(candidates.taken);

@@ -5,11 +5,10 @@ use nalgebra::{DMatrix, DVector};
 use rand::{Rng, RngExt};
 use rand_distr::Normal;
 
-use super::{Failure, Measurement, Model, Observation, Unknown};
+use super::{Failure, Measurement, Model, Observation, Result, Unknown};
 use abbe_analysis::ErrorParts;
 use abbe_analysis::sampling::stream;
-use abbe_core::displacement;
-use abbe_core::{Class, VariableKind};
+use abbe_core::{Class, VariableKind, displacement};
 
 /// Random contributions to simulated measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +37,7 @@ const APART: u64 = 0x6d65_6173_7572_6564;
 /// that the real machine touches up to the uncertainty of the instrument; joints that are equal in
 /// all rows stay fixed. The kind of measurement in `list` selects the targets, the pose or the
 /// readings. Observation i depends on the seed and i alone.
-pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<Vec<Observation>, Failure> {
+pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<Vec<Observation>> {
     let mut simulated = Simulated::new(model, list, chance);
     list.iter().enumerate().map(|(i, planned)| simulated.row(i, planned)).collect()
 }
@@ -74,7 +73,7 @@ impl<'a> Simulated<'a> {
     }
 
     /// Simulates row `i`.
-    pub fn row(&mut self, i: usize, planned: &Observation) -> Result<Observation, Failure> {
+    pub fn row(&mut self, i: usize, planned: &Observation) -> Result<Observation> {
         let Self { model, random, parts, moved, chance } = self;
         let mut numbers = stream(chance.seed ^ APART, i);
         // One machine has one value of each tolerance.
@@ -141,7 +140,7 @@ fn touching(
     moved: &[usize],
     chance: &Chance,
     numbers: &mut impl Rng,
-) -> Result<Observation, Failure> {
+) -> Result<Observation> {
     let Measurement::Readings(readings) = &planned.measured else { return Ok(planned.clone()) };
     let factor = chance.noise.length / model.uncertainty.length;
     let mut noise = |sigma: f64| Normal::new(0.0, sigma).map_or(0.0, |normal| numbers.sample(normal));
@@ -171,13 +170,13 @@ pub fn joints_at_values(
     x: &[f64],
     wanted: &[Option<f64>],
     moved: &[usize],
-) -> Result<Option<Vec<f64>>, Failure> {
+) -> Result<Option<Vec<f64>>> {
     let variables = &model.manipulator.description().variables;
     let arm = model.arm_length()?;
     let size = |j: &usize| if variables[*j].kind == VariableKind::Revolute { 1.0 } else { arm };
     let mut at = model.at(x);
     let mut place = observation.clone();
-    let mut off = |place: &Observation| -> Result<DVector<f64>, Failure> {
+    let mut off = |place: &Observation| -> Result<DVector<f64>> {
         let values = at.values(place)?;
         let readings = values.iter().zip(wanted).zip(&model.observables);
         let off = readings.filter_map(|((value, wanted), reading)| {

@@ -12,10 +12,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::evaluated_model::EvaluatedModel;
-use super::linearize::{by_blocks, linearize, with_priors};
-use super::triangle::Problem;
-use super::{Failure, Loss, Model, Observation};
+use super::{
+    EvaluatedModel, Failure, Loss, Model, Observation, Problem, Result, by_blocks, linearize, with_priors,
+};
 
 /// State of a fit.
 #[derive(Clone)]
@@ -66,7 +65,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Returns the triangle of the data, the problem with priors, and its cost.
-    fn linearize(&self, x: &DVector<f64>) -> Result<(DMatrix<f64>, Problem, f64), Failure> {
+    fn linearize(&self, x: &DVector<f64>) -> Result<(DMatrix<f64>, Problem, f64)> {
         let triangle = linearize(self.model, self.data, x.as_slice(), Some(&self.weights))?;
         let data_alone = triangle.clone().finish();
         let problem = with_priors(triangle, &self.prior, x.as_slice());
@@ -98,7 +97,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Linearizes at `x` with the current weights.
-    pub(super) fn linearize_here(&mut self) -> Result<(), Failure> {
+    pub(super) fn linearize_here(&mut self) -> Result<()> {
         (self.data_alone, self.problem, self.cost) = self.linearize(&self.x)?;
         self.linearized = true;
         Ok(())
@@ -106,7 +105,7 @@ impl<'a> Solver<'a> {
 
     /// Iterates until steps are negligible against the uncertainty, at most `most` times; returns
     /// whether it converged.
-    pub(super) fn steps_at_most(&mut self, most: usize) -> Result<bool, Failure> {
+    pub(super) fn steps_at_most(&mut self, most: usize) -> Result<bool> {
         if !self.linearized {
             self.linearize_here()?;
         }
@@ -164,7 +163,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Computes all residuals at `x`, and their norm for each observation.
-    pub(super) fn residuals(&self, x: &DVector<f64>) -> Result<Residuals, Failure> {
+    pub(super) fn residuals(&self, x: &DVector<f64>) -> Result<Residuals> {
         let block = |_: usize, rows: &[Observation]| {
             let mut at = self.model.at(x.as_slice());
             let (mut all, mut norms) = (Vec::new(), Vec::with_capacity(rows.len()));
@@ -195,7 +194,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Returns `δ + ½ a`, or δ if `a` is too long.
-    fn accelerated(&self, step: &DVector<f64>, damping: f64) -> Result<DVector<f64>, Failure> {
+    fn accelerated(&self, step: &DVector<f64>, damping: f64) -> Result<DVector<f64>> {
         let there = &self.x + step * AHEAD;
         let block = |first: usize, rows: &[Observation]| {
             let (mut here, mut there) = (self.at(), self.model.at(there.as_slice()));

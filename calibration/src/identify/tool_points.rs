@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, Matrix3xX, Vector3};
 
-use super::{Failure, Identifiable, Model, Observation, Unknown};
+use super::{Identifiable, Model, Observation, Result, Unknown};
 
 /// Derivatives of the tool point with respect to each unknown, at each configuration of a list;
 /// length unit per unit of the unknown.
@@ -16,7 +16,7 @@ impl Model<'_> {
     ///
     /// A single target at zero is the tool point, so its position is among the unknowns. With other
     /// targets, the tool point is a point of its own without unknowns.
-    pub fn tool_points(&self, used: &[Observation]) -> Result<ToolPoints, Failure> {
+    pub fn tool_points(&self, used: &[Observation]) -> Result<ToolPoints> {
         let single = self.targets_of(0).len() == 1
             && !self.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Tool(..)));
         let mut at = self.at(&vec![0.0; self.unknowns.len()]);

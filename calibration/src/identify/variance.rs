@@ -1,7 +1,6 @@
 //! Variance components: the actual uncertainty of each instrument, from its residuals in a fit.
 
-use super::linearize::{linearize, with_priors};
-use super::{Failure, Fit, Measurement, Model, Observation};
+use super::{Fit, Measurement, Model, Observation, Result, linearize, with_priors};
 
 /// Variance component of one instrument, or of positions or rotations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,11 +19,7 @@ pub struct VarianceComponent {
 ///
 /// Förstner, *Ein Verfahren zur Schätzung von Varianz- und Kovarianzkomponenten*, 1979: repetition
 /// with the new uncertainties until the factors are 1 converges to Helmert's estimates.
-pub fn variance_components(
-    model: &Model,
-    data: &[Observation],
-    fit: &Fit,
-) -> Result<Vec<VarianceComponent>, Failure> {
+pub fn variance_components(model: &Model, data: &[Observation], fit: &Fit) -> Result<Vec<VarianceComponent>> {
     let (kept, x) = fit.of_kept(model);
     let p = x.len();
     let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &fit.prior, &x);

@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::path::Path;
 
-use abbe::VariableKind;
 use abbe::analysis::{Configuration, Figures, Row};
 use abbe_spec::Spec;
 use abbe_spec::csv_writer::harmless;
@@ -12,6 +11,7 @@ use abbe_study::number::class;
 use abbe_study::study_file::{CombinedFigure, Metric};
 use csv::{Writer, WriterBuilder};
 
+use crate::Result;
 use crate::failure::Failure;
 use crate::output::{Outputs, Pending};
 
@@ -50,7 +50,7 @@ impl Files {
         spec: &Spec,
         varying: VaryingColumns,
         drawn: bool,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         outputs.folder(folder)?;
         let configurations = writer(outputs.file(&folder.join("configurations.csv"))?);
         let files = Self::begin(folder, outputs, varying, drawn)?;
@@ -74,7 +74,7 @@ impl Files {
         outputs: &mut Outputs,
         varying: VaryingColumns,
         drawn: bool,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let mut begin = |name: &str| outputs.file(&folder.join(name));
         Ok(Self {
             configurations: None,
@@ -104,7 +104,7 @@ impl Files {
 
     /// Writes the remaining CSV files. Returns the complete files, and the page, which is still
     /// empty.
-    pub(super) fn finish(mut self, report: &Report) -> Result<(Vec<Pending>, Pending), Failure> {
+    pub(super) fn finish(mut self, report: &Report) -> Result<(Vec<Pending>, Pending)> {
         self.keep(|files| write_sources(&mut files.sources, report));
         self.keep(|files| write_unreachable(&mut files.unreachable, report));
         self.keep(|files| match (&mut files.monte_carlo, &report.monte_carlo) {
@@ -224,10 +224,8 @@ fn write_unreachable(writer: &mut Writer<impl Write>, report: &Report) -> csv::R
 /// Returns the headings of a configuration, with units.
 fn names<'a>(spec: &'a Spec, varying: &'a VaryingColumns) -> impl Iterator<Item = String> + 'a {
     let length = spec.length.symbol();
-    let variables = spec.variables.iter().map(move |variable| match variable.kind {
-        VariableKind::Revolute => format!("{} (rad)", variable.name),
-        VariableKind::Prismatic => format!("{} ({length})", variable.name),
-    });
+    let variables = spec.variables.iter();
+    let variables = variables.map(move |one| format!("{} ({})", one.name, one.kind.either("rad", length)));
     let heading = |name: &str, unit: &str| match unit {
         "" => name.to_owned(),
         unit => format!("{name} ({unit})"),

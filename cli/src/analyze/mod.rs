@@ -20,9 +20,8 @@ use abbe_study::jacobian::read_joint_variables;
 use clap::Args;
 
 use crate::arguments::{Common, Dated, Showing, Subject, study, whole};
-use crate::console::Console;
-use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, cannot_write, note};
+use crate::{Console, Failure, Result};
 
 pub(crate) use files::{Files, VaryingColumns};
 
@@ -86,7 +85,7 @@ pub(crate) struct Analyze {
     common: Common,
 }
 
-pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &Analyze) -> Result<Outcome> {
     arguments.common.running.start()?;
     let mut console = Console::default();
     if let (Some(shard), Some(file)) = (arguments.shard, &arguments.out) {
@@ -131,7 +130,7 @@ pub(crate) fn write(
     mut outputs: Outputs,
     report: &Report,
     live: Option<&explore::Report>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let (mut complete, page) = files.finish(report)?;
     let mut page = Some(page);
     for file in abbe_report::analysis(report, live) {
@@ -151,7 +150,7 @@ pub(crate) fn write(
 /// # Errors
 ///
 /// `check` needs a study with a tolerance.
-pub(crate) fn outcome(report: &Report, check: bool, shown: &Showing, next: &str) -> Result<Outcome, Failure> {
+pub(crate) fn outcome(report: &Report, check: bool, shown: &Showing, next: &str) -> Result<Outcome> {
     let text = shown.answer(report, abbe_report::budget(report), next)?;
     match (check, report.verdict()) {
         (true, None) => Err(Failure::new("--check", "the study has no tolerance")
@@ -162,11 +161,7 @@ pub(crate) fn outcome(report: &Report, check: bool, shown: &Showing, next: &str)
 }
 
 /// Sweeps one part of the workspace and writes its part file.
-fn part(
-    arguments: &Analyze,
-    (shard, file): (Shard, &Path),
-    console: &mut Console,
-) -> Result<Outcome, Failure> {
+fn part(arguments: &Analyze, (shard, file): (Shard, &Path), console: &mut Console) -> Result<Outcome> {
     let machine = arguments.subject.as_written()?;
     let question = AnalysisRequest {
         tolerances: arguments.tolerance.clone(),
@@ -191,7 +186,7 @@ fn part(
     Ok(Outcome::passed(text).beside(printed))
 }
 
-fn job(arguments: &Analyze, console: &mut Console) -> Result<analyze::Analyze, Failure> {
+fn job(arguments: &Analyze, console: &mut Console) -> Result<analyze::Analyze> {
     let machine = arguments.subject.as_written()?;
     let study = study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
     let changes = arguments.subject.changes.read(&machine.spec)?;

@@ -16,6 +16,7 @@ use clap::{Args, ValueHint};
 use serde::Serialize;
 
 use super::values::whole;
+use crate::Result;
 use crate::failure::Failure;
 use crate::output::{json, note};
 use crate::signs::has_plain_signs;
@@ -150,16 +151,8 @@ impl Showing {
 
     /// Returns what a command prints: as JSON the numbers and the sentences, otherwise the text and
     /// what to do next.
-    pub(crate) fn answer<R: Serialize>(
-        &self,
-        report: &R,
-        document: Document,
-        next: &str,
-    ) -> Result<String, Failure> {
-        match self.json {
-            true => json(&document.worded(report)),
-            false => Ok(self.text(document) + &self.next(next)),
-        }
+    pub(crate) fn answer<R: Serialize>(&self, report: &R, document: Document, next: &str) -> Result<String> {
+        if self.json { json(&document.worded(report)) } else { Ok(self.text(document) + &self.next(next)) }
     }
 
     /// Returns the line that says what to do next; nothing below a full report.
@@ -181,7 +174,7 @@ pub(crate) struct Running {
 
 impl Running {
     /// Sets the number of threads. Must be called once, before the job starts.
-    pub(crate) fn start(&self) -> Result<(), Failure> {
+    pub(crate) fn start(&self) -> Result<()> {
         let Some(threads) = self.threads else { return Ok(()) };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build_global().map_err(|error| Failure::new("--threads", error))

@@ -3,12 +3,12 @@
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
+use abbe_spec::Spec;
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::parse_value;
-use abbe_spec::{Document, Spec};
 use abbe_study::options::{self, Choices};
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 
+use crate::Result;
 use crate::failure::Failure;
 
 /// Returns a parser of whole numbers in a range.
@@ -47,10 +47,8 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
 }
 
 /// Parses a length that must not be negative, in the length unit of the spec.
-pub(crate) fn length(option: &str, text: &str, spec: &Spec) -> Result<f64, Failure> {
-    let document = Document::new(option, text);
-    let value = parse_value(&document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
-    match document.finish(value)? {
+pub(crate) fn length(option: &str, text: &str, spec: &Spec) -> Result<f64> {
+    match options::quantity(option, text, spec.length, Dimension::LENGTH, "this")? {
         value if value >= 0.0 => Ok(value),
         _ => Err(Failure::new(option, "this must not be negative").help(format!("write `{option} 0.04mm`"))),
     }

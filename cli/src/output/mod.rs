@@ -17,6 +17,7 @@ use std::process::ExitCode;
 use abbe_spec::visible::visible;
 use serde::Serialize;
 
+use crate::Result;
 use crate::failure::Failure;
 use crate::signs::shown;
 
@@ -51,7 +52,7 @@ impl Outcome {
     }
 
     /// Prints the text and returns the exit status.
-    pub(crate) fn print(&self) -> Result<ExitCode, Failure> {
+    pub(crate) fn print(&self) -> Result<ExitCode> {
         match self.aside {
             true => note(self.text.trim_end()),
             false => print(&mut shown(visible(&self.text).into_owned(), &stdout()).as_bytes())?,
@@ -65,12 +66,12 @@ impl Outcome {
 pub(crate) struct Printed(bool);
 
 /// Writes to stdout. A closed pipe is not an error: its reader has read enough.
-fn print(content: &mut impl Read) -> Result<(), Failure> {
+fn print(content: &mut impl Read) -> Result<()> {
     printed(io::copy(content, &mut stdout().lock()))
 }
 
 /// Completes a write to stdout, and returns its failure.
-fn printed<T>(result: io::Result<T>) -> Result<(), Failure> {
+fn printed<T>(result: io::Result<T>) -> Result<()> {
     match result.and_then(|_| stdout().flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::new("stdout", format!("cannot write the results: {error}")))
@@ -81,7 +82,7 @@ fn printed<T>(result: io::Result<T>) -> Result<(), Failure> {
 
 /// Prints the help or the version to stdout, or a usage error to stderr, and returns the exit
 /// status.
-pub(crate) fn print_usage(usage: &clap::Error) -> Result<ExitCode, Failure> {
+pub(crate) fn print_usage(usage: &clap::Error) -> Result<ExitCode> {
     let result = usage.print();
     if !usage.use_stderr() {
         printed(result)?;
@@ -90,7 +91,7 @@ pub(crate) fn print_usage(usage: &clap::Error) -> Result<ExitCode, Failure> {
 }
 
 /// Serializes a report as one line of JSON.
-pub(crate) fn json(value: &impl Serialize) -> Result<String, Failure> {
+pub(crate) fn json(value: &impl Serialize) -> Result<String> {
     let text = serde_json::to_string(value).map_err(|error| Failure::new("JSON", error))?;
     Ok(text + "\n")
 }

@@ -10,6 +10,7 @@ use same_file::Handle;
 use super::pending::{PREFIX, Pending};
 use super::target::{Target, identity, is_stdout, parent};
 use super::{Printed, cannot_write, folders, note, record};
+use crate::Result;
 use crate::failure::Failure;
 
 /// Output files of one run.
@@ -35,7 +36,7 @@ impl Outputs {
     ///
     /// The path is an input, belongs to another result of this run, or holds a file that abbe did
     /// not write.
-    pub(crate) fn file(&mut self, path: &Path) -> Result<Pending, Failure> {
+    pub(crate) fn file(&mut self, path: &Path) -> Result<Pending> {
         let target = Target::find(path)?;
         self.check(path, &target)?;
         if self.taken.contains(&target) {
@@ -47,7 +48,7 @@ impl Outputs {
     }
 
     /// Begins a file if a path is given; see [`file`](Self::file).
-    pub(crate) fn wanted(&mut self, path: Option<&Path>) -> Result<Option<Pending>, Failure> {
+    pub(crate) fn wanted(&mut self, path: Option<&Path>) -> Result<Option<Pending>> {
         path.map(|path| self.file(path)).transpose()
     }
 
@@ -56,7 +57,7 @@ impl Outputs {
     /// # Errors
     ///
     /// The path is a file, or a folder with files that abbe did not write.
-    pub(crate) fn folder(&mut self, path: &Path) -> Result<(), Failure> {
+    pub(crate) fn folder(&mut self, path: &Path) -> Result<()> {
         if is_stdout(path) || (path.exists() && !path.is_dir()) {
             return Err(
                 Failure::new(path.display(), "this is a file, not a folder").help("--out takes a folder")
@@ -75,7 +76,7 @@ impl Outputs {
     }
 
     /// Checks that a path, and the file that it resolves to, may be written.
-    fn check(&self, path: &Path, target: &Target) -> Result<(), Failure> {
+    fn check(&self, path: &Path, target: &Target) -> Result<()> {
         let here = identity(path);
         if let Some((input, _)) = self.inputs.iter().find(|(_, input)| here.as_ref() == Some(input)) {
             let message = match input == path {
@@ -106,16 +107,16 @@ impl Outputs {
     pub(crate) fn write<'t, T: AsRef<[u8]> + 't>(
         mut self,
         files: impl IntoIterator<Item = (PathBuf, &'t T)>,
-    ) -> Result<Printed, Failure> {
+    ) -> Result<Printed> {
         let files = files.into_iter().map(|(path, text)| self.file(&path)?.fill(text));
-        let files = files.collect::<Result<Vec<_>, Failure>>()?;
+        let files = files.collect::<Result<Vec<_>>>()?;
         self.finish(files)
     }
 
     /// Moves the complete files to their paths, each in one step. Signals wait until all are moved.
     ///
     /// Pipes and devices are written first: they may fail, and cannot be undone.
-    pub(crate) fn finish(self, files: impl IntoIterator<Item = Pending>) -> Result<Printed, Failure> {
+    pub(crate) fn finish(self, files: impl IntoIterator<Item = Pending>) -> Result<Printed> {
         let (files, streams): (Vec<_>, Vec<_>) = files.into_iter().partition(Pending::is_file);
         let printed = Printed(streams.iter().any(|stream| stream.target == Target::Stdout));
         for file in files.iter().chain(&streams) {

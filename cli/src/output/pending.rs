@@ -9,7 +9,7 @@ use tempfile::{Builder, NamedTempFile, SpooledTempFile};
 
 use super::target::{Target, parent};
 use super::{cannot_write, folders, print};
-use crate::failure::Failure;
+use crate::Result;
 
 /// Prefix of the names of abbe's own files.
 pub(super) const PREFIX: &str = ".abbe-";
@@ -29,7 +29,7 @@ pub(crate) struct Pending {
 }
 
 impl Pending {
-    pub(super) fn begin(path: &Path, target: Target) -> Result<Self, Failure> {
+    pub(super) fn begin(path: &Path, target: Target) -> Result<Self> {
         let content = match &target {
             Target::File(file) => {
                 // Checks write permission now rather than after hours of work.
@@ -43,7 +43,7 @@ impl Pending {
     }
 
     /// Appends text or bytes, and returns the file.
-    pub(crate) fn fill(mut self, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<Self, Failure> {
+    pub(crate) fn fill(mut self, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<Self> {
         self.write_all(content.as_ref()).map_err(|error| cannot_write(&self.path, &error))?;
         Ok(self)
     }
@@ -65,7 +65,7 @@ impl Pending {
     }
 
     /// Appends the content to its stream.
-    pub(super) fn write_through(mut self) -> Result<(), Failure> {
+    pub(super) fn write_through(mut self) -> Result<()> {
         let failed = |error| cannot_write(&self.path, &error);
         self.content.rewind().map_err(failed)?;
         if self.target == Target::Stdout {

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use same_file::Handle;
 
 use super::cannot_write;
+use crate::Result;
 use crate::failure::Failure;
 
 /// Resolved output path.
@@ -34,7 +35,7 @@ impl Target {
     /// # Errors
     ///
     /// The path is a folder, or cannot be read.
-    pub(super) fn find(path: &Path) -> Result<Self, Failure> {
+    pub(super) fn find(path: &Path) -> Result<Self> {
         if is_stdout(path) {
             return Ok(Self::Stdout);
         }
@@ -57,11 +58,9 @@ impl Target {
             }
         }
     }
-}
 
-impl Target {
     /// Checks that the folder of a file is not replaced by a link: its path has none.
-    pub(super) fn is_where_it_was(&self, path: &Path) -> Result<(), Failure> {
+    pub(super) fn is_where_it_was(&self, path: &Path) -> Result<()> {
         let Self::File(file) = self else { return Ok(()) };
         match fs::canonicalize(parent(file)) {
             Ok(folder) if folder == parent(file) => Ok(()),
@@ -79,7 +78,7 @@ pub(crate) fn is_stdout(path: &Path) -> bool {
 }
 
 /// Returns the target of a path without a file, following dangling links to their end.
-fn new_file(path: &Path) -> Result<Target, Failure> {
+fn new_file(path: &Path) -> Result<Target> {
     let mut end = path.to_owned();
     for _ in 0..LINKS {
         let Ok(to) = fs::read_link(&end) else { break };

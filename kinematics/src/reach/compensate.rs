@@ -2,8 +2,7 @@
 
 use super::real_tool::RealTool;
 use abbe_core::compensator::{Compensated, Cycle, LEVER, Status, compensate, is_reached};
-use abbe_core::twist;
-use abbe_core::{Error, Manipulator, Pose, drawn_pose};
+use abbe_core::{Error, Manipulator, Pose, drawn_pose, twist};
 
 /// Goal of compensated commands; by default the ideal pose at the commands, the position with
 /// priority.

@@ -222,10 +222,8 @@ impl<R: Register, const ROWS: usize> LaneStates<R, ROWS> {
     /// Moves the lanes whose candidate is better to it.
     #[inline(always)]
     fn take_over(&mut self, lanes: &[Option<Lane>; WIDEST]) {
-        let before = Lanes::<R>::from_fn(|place| match &lanes[place] {
-            Some(lane) => lane.norm * (1.0 - STAGNATION),
-            None => f64::INFINITY,
-        });
+        let norm = |lane: &Lane| lane.norm * (1.0 - STAGNATION);
+        let before = Lanes::<R>::from_fn(|place| lanes[place].as_ref().map_or(f64::INFINITY, norm));
         let better = before.more_than(self.there.norm);
         let (zero, one) = (Lanes::<R>::constant(0.0), Lanes::<R>::constant(1.0));
         if !better.select(zero, one).more_than(zero).any() {

@@ -2,11 +2,10 @@
 
 use super::bounds::Bounds;
 use super::descents::Descents;
-use super::generated;
 use super::joint_chain::JointChain;
 use super::search::Search;
 use super::target_search::Problem;
-use super::{ReachError, Target};
+use super::{ReachError, Target, generated};
 use abbe_core::Manipulator;
 use abbe_core::lanes::InstructionSet;
 

@@ -5,11 +5,9 @@ use core::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::generated;
-use super::inverse::inverse;
 use super::search::Search;
 use super::target_search::{AT_LIMIT, Problem, REACHED};
-use super::{ReachError, Target};
+use super::{ReachError, Target, generated, inverse};
 use crate::sampling;
 use abbe_core::{Manipulator, Pose, Quantity, Variable, VariableKind, checks, deviation};
 

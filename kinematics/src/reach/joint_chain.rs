@@ -101,10 +101,7 @@ impl JointChain {
         let mut after = &mut tool;
         for joint in joints.iter_mut().rev() {
             let next = after.position();
-            let centre = match joint.kind {
-                VariableKind::Revolute => [0.0, 0.0, next[2]],
-                VariableKind::Prismatic => next,
-            };
+            let centre = joint.kind.either([0.0, 0.0, next[2]], next);
             *after = shift(centre.map(|x| -x)).then(after);
             joint.before = joint.before.then(&shift(centre));
             after = &mut joint.before;

@@ -6,8 +6,7 @@ use super::Goal;
 use super::real_tool::RealTool;
 use crate::{decompose::singular_values, sampling};
 use abbe_core::compensator::{Compensated, norms};
-use abbe_core::twist;
-use abbe_core::{Error, Manipulator, VariableKind};
+use abbe_core::{Error, Manipulator, VariableKind, twist};
 
 /// Remaining error.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -176,10 +176,7 @@ impl Subset<'_> {
     /// Returns the index in the original workspace.
     pub fn place(&self, index: usize) -> usize {
         let all = self.workspace.len();
-        match all <= self.count {
-            true => index,
-            false => ((index as f64 * GOLDEN).fract() * all as f64) as usize,
-        }
+        if all <= self.count { index } else { ((index as f64 * GOLDEN).fract() * all as f64) as usize }
     }
 }
 

@@ -5,11 +5,9 @@ use core::ops::Range;
 use rand::{Rng, RngExt};
 
 use super::Workspace;
-use crate::Configuration;
-use crate::ReachError;
-use crate::SumLimits;
 use crate::configuration::in_range;
 use crate::sampling::{self, RadicalInverses, stream};
+use crate::{Configuration, ReachError, SumLimits};
 use abbe_core::lanes::{Kernel, Register, Tiles};
 use abbe_core::{Error, List, Manipulator, Quantity};
 

@@ -4,15 +4,14 @@ pub mod options;
 mod rows;
 
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::POSES;
+use abbe_spec::{Diagnostics, Spec};
 use serde::Serialize;
 
 use crate::data::{Base, Channel, Data, Heading, Layout, Map, Summary, Table, Unusable};
 use crate::running_sums::RunningSums;
 use abbe_study::extrapolation::{Extrapolation, ToolPointDeviation, warn_of_extrapolation};
-use abbe_study::{Evaluator, Machine, Notes, Residuals, RunRecord, finite, mistake, number};
+use abbe_study::{Evaluator, Machine, Notes, Residuals, Result, RunRecord, finite, mistake, number};
 
 use rows::{BaseFramePoses, Task};
 pub use rows::{CommandCorrector, CorrectedCommand, ErrorNorms, Row};
@@ -172,7 +171,7 @@ impl Compensate {
     }
 
     /// Corrects all rows and returns them in the report.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let mut rows = Vec::new();
         let report = self.for_each_row(notes, |row| {
             rows.push(row);
@@ -252,6 +251,20 @@ impl Compensate {
         };
         Ok(finite(&self.data.file, report)?)
     }
+
+    /// Returns the heading of the table of corrected commands.
+    pub fn heading(&self) -> Heading {
+        let named = self.map.stations.column.is_some();
+        let labels = if named { self.data.stations.clone() } else { Vec::new() };
+        Heading { names: heading(&self.map), labels }
+    }
+
+    /// Returns the station name of a row; `None` if the data have no station column.
+    pub fn label(&self, row: &Row) -> Option<&str> {
+        let station = row.corrected.station as usize;
+        let label = self.map.stations.column.as_ref();
+        label.map(|_| self.data.stations.get(station).map_or("", |name| name))
+    }
 }
 
 /// Returns the spec with joints whose values the map fixes held there by their limits, and their
@@ -271,7 +284,7 @@ fn with_held_joints(spec: &Spec, map: &Map) -> (Spec, Vec<String>) {
 }
 
 /// Checks that a map describes poses in a known base frame.
-pub fn check_poses(map: &Map) -> Result<(), Diagnostics> {
+pub fn check_poses(map: &Map) -> Result<()> {
     let is_base_known = map.base != Base::Unknown || !map.stations.stated.is_empty();
     if matches!(map.layout, Layout::Pose(..)) && is_base_known {
         return Ok(());
@@ -303,22 +316,6 @@ impl Report {
         let rows = self.rows.iter().map(|row| row.numbers(map)).collect();
         let labels = map.labels(self.rows.iter().map(|row| &row.corrected), &self.stations);
         Table { heading: heading(map), rows, labels, ..Table::default() }
-    }
-}
-
-impl Compensate {
-    /// Returns the heading of the table of corrected commands.
-    pub fn heading(&self) -> Heading {
-        let named = self.map.stations.column.is_some();
-        let labels = if named { self.data.stations.clone() } else { Vec::new() };
-        Heading { names: heading(&self.map), labels }
-    }
-
-    /// Returns the station name of a row; `None` if the data have no station column.
-    pub fn label(&self, row: &Row) -> Option<&str> {
-        let station = row.corrected.station as usize;
-        let label = self.map.stations.column.as_ref();
-        label.map(|_| self.data.stations.get(station).map_or("", |name| name))
     }
 }
 

@@ -18,7 +18,7 @@ use abbe::identify::{Measurement, Observation};
 use abbe::{Description, Error, Manipulator, Pose, Variable, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::number::{Named, beyond_sum_limit, length, of_variable};
-use abbe_study::{Notes, Residual, mistake};
+use abbe_study::{About, Notes, Residual, Result, mistake};
 use serde::Serialize;
 
 use crate::data::{Data, Map, Unusable};
@@ -96,11 +96,10 @@ impl<'a> Task<'a> {
         poses: bool,
         tolerance: f64,
         weight: Option<f64>,
-    ) -> Result<Self, Diagnostics> {
+    ) -> Result<Self> {
         let description = manipulator.description();
         let s = sampling::nominal_parameters(description);
-        let mobility = mobility(manipulator, &s);
-        let mobility = mobility.map_err(|error| mistake::whole(&description.name, &error))?;
+        let mobility = mobility(manipulator, &s).about(&description.name)?;
         Ok(Self { manipulator, description, s, poses, tolerance, weight, mobility })
     }
 
@@ -355,11 +354,7 @@ impl<'a> CommandCorrector<'a> {
     /// Creates a corrector for a machine. `tolerance` is the permitted error of the tool point in
     /// the length unit; for angles 1 rad counts as 1 m. `weight` is the length that weighs as much
     /// as 1 rad where both cannot be reached; `None` gives the position priority.
-    pub fn new(
-        manipulator: &'a dyn Manipulator,
-        tolerance: f64,
-        weight: Option<f64>,
-    ) -> Result<Self, Diagnostics> {
+    pub fn new(manipulator: &'a dyn Manipulator, tolerance: f64, weight: Option<f64>) -> Result<Self> {
         Task::new(manipulator, false, tolerance, weight).map(Self)
     }
 

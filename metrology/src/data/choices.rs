@@ -1,7 +1,6 @@
 //! Words of a map that stand for one of a few values.
 
-use super::map::Base;
-use super::turn::Order;
+use super::{Base, Order};
 use crate::acceptance::FITTED;
 
 pub(super) const BASES: [(&str, Base); 3] =

@@ -3,12 +3,10 @@
 use abbe::Pose;
 use abbe::analysis::{InverseKinematics, sampling};
 use abbe_interpreter::Interpreter;
-use abbe_spec::{Diagnostics, Spec};
-use abbe_study::mistake;
+use abbe_spec::Spec;
+use abbe_study::{Result, mistake};
 
-use super::column::{Channel, Column};
-use super::rotation;
-use super::turn::Turn;
+use super::{Channel, Column, Turn, rotation};
 
 /// Columns of the pose at which the controller has the tool of the nominal machine.
 #[derive(Clone, Debug)]
@@ -53,7 +51,7 @@ impl CommandPose {
 }
 
 /// Prepares the nominal machine for the poses of rows.
-pub(super) fn inverse(machine: &Interpreter) -> Result<InverseKinematics<'_>, Diagnostics> {
+pub(super) fn inverse(machine: &Interpreter) -> Result<InverseKinematics<'_>> {
     let description = abbe::Manipulator::description(machine);
     let s = sampling::nominal_parameters(description);
     let help = "name columns for the joints in `[joints]`";

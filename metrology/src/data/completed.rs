@@ -6,14 +6,12 @@ use abbe::Manipulator;
 use abbe::analysis::sampling::nominal_parameters;
 use abbe::identify::Observation;
 use abbe_interpreter::Interpreter;
-use abbe_spec::{Diagnostics, Spec};
-use abbe_study::mistake;
+use abbe_spec::Spec;
 use abbe_study::open_loops::open_loops;
+use abbe_study::{Result, mistake};
 
-use super::column::Channel;
-use super::from_rows::{in_order, set_input, with_references};
-use super::map::Map;
 use super::rows::{Data, SHOWN};
+use super::{Channel, Map, in_order, set_input, with_references};
 
 impl Map {
     /// Returns whether an input is computed from the rows.
@@ -52,10 +50,7 @@ impl Data {
     /// sources of the spec, do not close to the unusable ones.
     ///
     /// Returns an error if no row is left.
-    pub(crate) fn closed<'d>(
-        data: Cow<'d, Self>,
-        machine: &Interpreter,
-    ) -> Result<Cow<'d, Self>, Diagnostics> {
+    pub(crate) fn closed<'d>(data: Cow<'d, Self>, machine: &Interpreter) -> Result<Cow<'d, Self>> {
         let s = nominal_parameters(machine.description());
         let error = |row: &Observation| {
             let nominal = machine.pose(&row.q, &s).err();

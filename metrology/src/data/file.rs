@@ -13,7 +13,7 @@ use super::dialect::Dialect;
 use super::preamble::{above_heading, stated_separator};
 use super::record::Record;
 use abbe_study::lines::{Lines, RecordedReader};
-use abbe_study::mistake;
+use abbe_study::{Result, mistake};
 
 const WANTED: &str = "give a CSV file with a heading in its first line";
 
@@ -40,7 +40,7 @@ pub(super) struct File {
 
 impl File {
     /// Opens a file and reads its heading.
-    pub(super) fn open(file: &Path) -> Result<Self, Diagnostics> {
+    pub(super) fn open(file: &Path) -> Result<Self> {
         let name = file.display().to_string();
         let fail = |error: io::Error| unfit(&name, &UnreadableFile::from_error(&error, WANTED));
         let mut input = Bounded::open(file, LARGEST_FILE).map_err(fail)?;
@@ -70,7 +70,7 @@ impl File {
     }
 
     /// Returns the records below the heading.
-    pub(super) fn records(self) -> impl Iterator<Item = Result<Record, Diagnostics>> {
+    pub(super) fn records(self) -> impl Iterator<Item = Result<Record>> {
         let Self { file, reader, mut lines, dialect, heading } = self;
         reader.into_records().enumerate().map(move |(row, record)| {
             let fields = record.map_err(|error| unreadable(&file, &error))?;

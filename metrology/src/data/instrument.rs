@@ -127,10 +127,7 @@ impl Instruments {
         let mut numbers: Vec<f64> = self.list.iter().filter_map(|instrument| instrument.setup).collect();
         numbers.sort_by(f64::total_cmp);
         numbers.dedup();
-        let all = match numbers.is_empty() {
-            true => vec![None],
-            false => numbers.into_iter().map(Some).collect(),
-        };
+        let all = if numbers.is_empty() { vec![None] } else { numbers.into_iter().map(Some).collect() };
         all.into_iter().map(|setup| (setup, self.read_in(setup))).collect()
     }
 

@@ -3,9 +3,7 @@
 use abbe::Pose;
 use abbe::identify::{Measurement, Observation};
 
-use super::column::Channel;
-use super::map::{Layout, Map};
-use super::rotation;
+use super::{Channel, Layout, Map, rotation};
 
 impl Map {
     /// Converts the numbers of the measured columns to a measurement, without hidden targets; or
@@ -54,10 +52,7 @@ impl Map {
         names: &[String],
     ) -> Vec<String> {
         let name = |row: &Observation| names.get(row.station as usize).cloned().unwrap_or_default();
-        match self.stations.column {
-            Some(_) => rows.into_iter().map(name).collect(),
-            None => Vec::new(),
-        }
+        rows.into_iter().filter(|_| self.stations.column.is_some()).map(name).collect()
     }
 
     /// Returns the numbers of a row; `ideal` is the commanded tool point, for differences.

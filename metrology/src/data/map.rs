@@ -6,20 +6,15 @@ use std::sync::Arc;
 use abbe::Pose;
 use abbe::analysis::Configuration;
 use abbe::identify::{Measurement, Observation, Uncertainty};
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 
-use super::column::{Channel, Column, Scale};
 use super::command_pose::CommandPose;
 use super::configurations::resolution;
-use super::instrument::Instruments;
-use super::sight::Sight;
-use super::station::{Placement, Stations};
-use super::target_frame::TargetFrame;
-use super::turn::Turn;
+use super::{Channel, Column, Instruments, Placement, Scale, Sight, Stations, TargetFrame, Turn};
 use crate::Acceptance;
 use abbe_study::number::short;
 use abbe_study::workspace::has_range;
-use abbe_study::{Machine, RunRecord, mistake};
+use abbe_study::{Machine, Result, RunRecord, mistake};
 
 /// A target on the end effector.
 #[derive(Clone, Debug)]
@@ -121,7 +116,7 @@ pub struct Map {
 
 impl Map {
     /// Reads the limits given to `option`; without any, returns those of the map.
-    pub fn limits(&self, option: &str, text: Option<&str>, spec: &Spec) -> Result<Acceptance, Diagnostics> {
+    pub fn limits(&self, option: &str, text: Option<&str>, spec: &Spec) -> Result<Acceptance> {
         text.map_or_else(|| Ok(self.accept.clone()), |text| Acceptance::read(option, text, spec.length))
     }
 
@@ -302,7 +297,7 @@ impl Map {
 
     /// Returns an error if the map states no uncertainty for a part of the measurements, which
     /// `task` needs.
-    pub(crate) fn require_uncertainty(&self, task: &str) -> Result<(), Diagnostics> {
+    pub(crate) fn require_uncertainty(&self, task: &str) -> Result<()> {
         let Some(part) = self.without_uncertainty() else { return Ok(()) };
         let message = format!("{task} needs the uncertainty of {part}, which this map calls unknown");
         let help = "state it as the data sheet of the instrument does, or use the map that `abbe identify` \
@@ -311,7 +306,7 @@ impl Map {
     }
 
     /// Returns an error if rows have poses in place of the joints, which `task` needs.
-    pub(crate) fn require_joints(&self, task: &str) -> Result<(), Diagnostics> {
+    pub(crate) fn require_joints(&self, task: &str) -> Result<()> {
         if self.command_pose.is_none() {
             return Ok(());
         }

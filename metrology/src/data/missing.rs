@@ -2,8 +2,7 @@
 
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 
-use super::column::Column;
-use super::map::Map;
+use super::{Column, Map};
 
 impl Map {
     /// Reports all missing columns, each at its position in the map.

@@ -5,37 +5,32 @@ use std::path::Path;
 use std::sync::Arc;
 
 use abbe::identify::{Uncertainty, register};
-use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
-use abbe_spec::{Diagnostic, Diagnostics, Spec};
+use abbe_spec::{Diagnostic, Document, Item, Section, Spec};
 
 use super::choices::{BASES, COMMANDS, JUDGED_TARGETS, QUATERNION_ORDERS};
-use super::column::Column;
 use super::command_pose::CommandPose;
 use super::configurations::resolution;
-use super::keys;
-use super::map::{Base, Layout, Map, Target};
 use super::read_channels::{column, columns, deviation, initial_deviation, inputs, joints, unit};
 use super::read_instruments::{instruments, target_position};
 use super::read_places::{distances, found_places, placement, sight, stations};
-use super::target_frame::TargetFrame;
-use super::turn::{EULER_ORDERS, Turn};
+use super::{Base, Column, EULER_ORDERS, Layout, Map, Target, TargetFrame, Turn, keys};
 use crate::acceptance::{Acceptance, FIGURE_NAMES, TARGET};
-use abbe_study::{RunRecord, check_date, named};
+use abbe_study::{Result, RunRecord, check_date, named};
 
 impl Map {
     /// Reads the map in a file, or the shipped map of that name.
-    pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
+    pub fn find(argument: &Path, spec: &Spec) -> Result<Self> {
         let document = named::document(&MAP, argument, abbe_manipulators::MAPS, "maps", "shipped map")?;
         Self::from_document(document, spec)
     }
 
     /// Parses the text of a map; diagnostics name `path`.
-    pub fn parse(path: &str, text: &str, spec: &Spec) -> Result<Self, Diagnostics> {
+    pub fn parse(path: &str, text: &str, spec: &Spec) -> Result<Self> {
         Self::from_document(Document::new(path, text), spec)
     }
 
-    fn from_document(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
+    fn from_document(mut document: Document, spec: &Spec) -> Result<Self> {
         let text = Arc::clone(&document.text);
         document.length = spec.length;
         let tables = document.tables(&text);

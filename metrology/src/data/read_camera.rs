@@ -5,9 +5,8 @@ use abbe_spec::document::{Item, Section};
 use abbe_spec::expr::Dimension;
 
 use super::choices::{INTRINSIC_CHOICES, MOUNTS};
-use super::column::Column;
-use super::instrument::{Instrument, Instruments};
 use super::read_channels::{column, deviation};
+use super::{Column, Instrument, Instruments};
 
 /// Initial value of an uncertainty to be estimated: 0.2 pixels.
 const GUESS: f64 = 0.2;

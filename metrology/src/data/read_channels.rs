@@ -3,16 +3,11 @@
 //! Readers of constants, columns and units.
 
 use abbe::{LengthUnit, VariableKind};
-use abbe_spec::diagnostic::Diagnostic;
-use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::{Dimension, LARGEST};
 use abbe_spec::value::{find_name, parse_value, read_name};
-use abbe_spec::{Input, Spec};
+use abbe_spec::{Diagnostic, Document, Input, Item, Section, Spec};
 
-use super::choices::UNKNOWN;
-use super::column::{Channel, Column, Scale};
-use super::from_rows::FromRows;
-use super::keys;
+use super::{Channel, Column, FromRows, Scale, UNKNOWN, keys};
 
 pub(super) fn joints(root: &Section<'_>, spec: &Spec) -> Option<Vec<Channel>> {
     let section = root.required("joints").and_then(|item| item.section())?;
@@ -152,10 +147,7 @@ pub(super) fn is_unknown(item: &Item<'_>) -> bool {
 
 /// Reads a standard deviation; `Some(None)` if it is to be estimated from the data.
 pub(super) fn deviation(item: &Item<'_>, dimension: Dimension) -> Option<Option<f64>> {
-    match is_unknown(item) {
-        true => Some(None),
-        false => positive(item, dimension).map(Some),
-    }
+    if is_unknown(item) { Some(None) } else { positive(item, dimension).map(Some) }
 }
 
 /// Returns the initial value of a standard deviation that is estimated: 10 µm or 10 µrad.

@@ -8,12 +8,9 @@ use abbe_spec::document::{Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::read_name;
 
-use super::column::Column;
-use super::instrument::{Instrument, Instruments};
-use super::keys;
 use super::read_camera::camera;
 use super::read_channels::{column, columns, deviation, initial_deviation, is_unknown, unit};
-use super::target_frame::TargetFrame;
+use super::{Column, Instrument, Instruments, TargetFrame, keys};
 
 /// A target with a name.
 struct Named {
@@ -34,8 +31,7 @@ pub(super) fn instruments(
         .map_or(Some(vec![Named { name: String::new(), position: Some([0.0; 3]) }]), |item| {
             targets(&item, frame)
         })?;
-    let items = root.get("instrument")?;
-    let items = items.array("an array of tables [[instrument]]")?;
+    let items = root.get("instrument")?.array("an array of tables [[instrument]]")?;
     let mut all = Instruments {
         targets: targets.iter().map(|t| t.position).collect(),
         setup,

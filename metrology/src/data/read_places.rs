@@ -13,13 +13,11 @@ use abbe_spec::expr::Dimension;
 use abbe_spec::value::read_name;
 
 use super::choices::{PLACEMENTS, Placed};
-use super::instrument::Instruments;
-use super::map::Layout;
 use super::read_channels::{column, positive};
 use super::sight::{Cone, Sight};
-use super::station::{Placement, StatedPlacement, StatedStation, Stations};
-use super::target_frame::TargetFrame;
-use super::{keys, rotation};
+use super::{
+    Instruments, Layout, Placement, StatedPlacement, StatedStation, Stations, TargetFrame, keys, rotation,
+};
 
 /// Reads the column of stations in `[data]`, and the `[[station]]` tables.
 pub(super) fn stations(root: &Section<'_>, head: &Section<'_>) -> Option<Stations> {

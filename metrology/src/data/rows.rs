@@ -11,18 +11,15 @@ use std::sync::Arc;
 use abbe::Manipulator;
 use abbe::analysis::sampling;
 use abbe::identify::{Approach, Configurations, Measurement, Observation};
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::date::{Calendar, parse_date};
-use abbe_study::{mistake, number};
+use abbe_study::{Result, mistake, number};
 use serde::Serialize;
 
-use super::column::{Channel, Column};
 use super::command_pose::{CommandPose, inverse};
 use super::configurations::number_configurations;
 use super::instrument::{Instruments, NOTHING_READ};
-use super::map::{Layout, Map};
 use super::record::Record;
-use super::source::Source;
+use super::{Channel, Column, Layout, Map, Source};
 
 /// A row that cannot be used.
 #[derive(Clone, Debug, Serialize)]
@@ -72,27 +69,27 @@ impl Data {
 
     /// Reads commands and measurements. Exact repetitions of a row are unusable: copies, unless
     /// their times differ, or fewer than three readings were rounded to the same numbers.
-    pub fn read<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
+    pub fn read<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self> {
         Self::rows(source.into(), map, Wanted::Measured, true)
     }
 
     /// Returns the names of the columns of a file.
-    pub fn heading(file: &Path) -> Result<Vec<String>, Diagnostics> {
+    pub fn heading(file: &Path) -> Result<Vec<String>> {
         Source::File(file).open().map(|file| file.heading.to_vec())
     }
 
     /// Reads wanted poses of the tool, which other columns of the map measure; repetitions are
     /// kept.
-    pub fn read_wanted<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
+    pub fn read_wanted<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self> {
         Self::rows(source.into(), map, Wanted::Measured, false)
     }
 
     /// Reads commands alone: a plan.
-    pub fn read_commanded<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
+    pub fn read_commanded<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self> {
         Self::rows(source.into(), map, Wanted::Commanded, false)
     }
 
-    fn rows(source: Source<'_>, map: &Map, columns: Wanted, once: bool) -> Result<Self, Diagnostics> {
+    fn rows(source: Source<'_>, map: &Map, columns: Wanted, once: bool) -> Result<Self> {
         let table = source.open()?;
         let header = &Arc::clone(&table.heading);
         // With measurements, their columns include the setup.
@@ -385,7 +382,7 @@ pub struct Dated {
 
 impl Dated {
     /// Reads commands, measurements and times. Repeated rows are kept.
-    pub fn read<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
+    pub fn read<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self> {
         let source = source.into();
         let data = Data::read_wanted(source, map)?;
         let Some(column) = &map.time else { return Ok(Self { data, calendars: None }) };

@@ -6,12 +6,11 @@
 //! such as `1+` and `1-`. Units are in the headings: `position (mm)`, `deviation (um)`.
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::{Dimension, Unit};
 
 use super::missing::not_a_heading;
 use super::source::{Opened, Source};
-use abbe_study::mistake;
+use abbe_study::{Result, mistake};
 
 /// Approaches of one target position.
 #[derive(Clone, Debug, Default)]
@@ -63,7 +62,7 @@ struct Readings {
 }
 
 /// Reads runs.
-pub(crate) fn runs(source: Source<'_>) -> Result<Runs, Diagnostics> {
+pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
     let Opened { heading, records, .. } = source.open()?;
     let name = source.name();
     let refuse = |message: String, help: &str| Err(mistake::with_help(&name, message, help));

@@ -5,8 +5,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::{hash, mistake};
+use abbe_study::{Result, hash, mistake};
 use sha2::{Digest, Sha256};
 
 use super::cells::Cells;
@@ -37,7 +36,7 @@ impl Columns {
     ///
     /// `name` is used in diagnostics; `others` are the names of ignored columns. Columns of
     /// different lengths are an error.
-    pub fn new(name: &str, columns: Vec<(String, Cells)>, others: Vec<String>) -> Result<Self, Diagnostics> {
+    pub fn new(name: &str, columns: Vec<(String, Cells)>, others: Vec<String>) -> Result<Self> {
         let rows = columns.first().map_or(0, |(_, cells)| cells.len());
         if let Some((other, cells)) = columns.iter().find(|(_, cells)| cells.len() != rows) {
             let message = format!(
@@ -83,7 +82,7 @@ pub(super) struct Opened {
     pub(super) heading: Arc<[String]>,
     /// Description of the dialect, if it is not the usual one.
     pub(super) dialect: Option<&'static str>,
-    pub(super) records: Box<dyn Iterator<Item = Result<Record, Diagnostics>>>,
+    pub(super) records: Box<dyn Iterator<Item = Result<Record>>>,
 }
 
 impl Source<'_> {
@@ -105,7 +104,7 @@ impl Source<'_> {
 
     /// Returns the SHA-256 of a file, as `sha256sum` does, or of the names, numbers and texts of
     /// columns.
-    pub fn hash(&self) -> Result<String, Diagnostics> {
+    pub fn hash(&self) -> Result<String> {
         match self {
             Self::File(file) => hash::file(file),
             Self::Columns(columns) => Ok(columns.hash()),
@@ -113,7 +112,7 @@ impl Source<'_> {
     }
 
     /// Reads the heading.
-    pub(super) fn open(&self) -> Result<Opened, Diagnostics> {
+    pub(super) fn open(&self) -> Result<Opened> {
         match self {
             Self::File(file) => {
                 let file = File::open(file)?;
@@ -161,7 +160,7 @@ pub(crate) struct RawTable {
 }
 
 /// Reads all rows.
-pub(crate) fn raw_table(source: Source<'_>) -> Result<RawTable, Diagnostics> {
+pub(crate) fn raw_table(source: Source<'_>) -> Result<RawTable> {
     let Opened { heading, records, .. } = source.open()?;
     let heading = heading.to_vec();
     if source.file().is_some() && heading.iter().any(|name| name.parse::<f64>().is_ok()) {

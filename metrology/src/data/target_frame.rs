@@ -3,8 +3,7 @@
 
 use abbe::{Manipulator, Pose};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::document::Section;
+use abbe_spec::{Section, Spec};
 
 /// Frames of the positions of targets, each with `true` for the flange.
 pub(super) const TARGET_FRAMES: [(&str, bool); 2] = [("tool", false), ("flange", true)];

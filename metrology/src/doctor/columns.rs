@@ -1,11 +1,11 @@
 //! Columns of a file or table: joint values and measured poses.
 
 use abbe_spec::Spec;
-use abbe_spec::diagnostic::{Diagnostics, listed};
+use abbe_spec::diagnostic::listed;
 
 use crate::data::{RawTable, Source, raw_table};
 use crate::interpretations::{PoseFormat, configurations};
-use abbe_study::{Notes, mistake};
+use abbe_study::{Notes, Result, mistake};
 
 /// Numeric columns of a file or table.
 pub(super) struct Columns {
@@ -32,12 +32,7 @@ impl Columns {
     /// Reads the columns. Joint columns are those named as the variables of the spec, or numbered
     /// as they are; unless all of these exist, the first columns are. Keeps at most `most` rows,
     /// evenly spaced.
-    pub(super) fn read(
-        source: Source<'_>,
-        spec: &Spec,
-        most: usize,
-        notes: &mut dyn Notes,
-    ) -> Result<Self, Diagnostics> {
+    pub(super) fn read(source: Source<'_>, spec: &Spec, most: usize, notes: &mut dyn Notes) -> Result<Self> {
         let RawTable { heading, rows, slips } = raw_table(source)?;
         let fail = |message: String, help: &str| Err(mistake::with_help(source.name(), message, help));
         // In a mostly numeric column, a cell that is no number invalidates its row; other columns

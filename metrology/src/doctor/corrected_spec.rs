@@ -8,13 +8,13 @@ use std::ops::Range;
 use std::path::Path;
 
 use abbe::VariableKind;
-use abbe_spec::document::Item;
 use abbe_spec::edit::Edits;
 use abbe_spec::edit::write::quoted;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::{Item, Spec};
 
 use super::job::Report;
 use crate::interpretations::{Change, words};
+use abbe_study::Result;
 use abbe_study::number::digits;
 
 /// Keys that place a frame or the tool.
@@ -27,7 +27,7 @@ impl Report {
     /// Returns the text of the spec according to the first interpretation. Returns `None` if that
     /// changes nothing in the spec, or cannot be expressed in its text. `path` is the file name of
     /// the result; paths of table files are resolved from there.
-    pub fn corrected(&self, spec: &Spec, text: &str, path: &str) -> Result<Option<String>, Diagnostics> {
+    pub fn corrected(&self, spec: &Spec, text: &str, path: &str) -> Result<Option<String>> {
         let changes = self.found.first().map_or(&[][..], |found| &found.interpretation.changes);
         let Some(text) = rewritten(changes, spec, text) else { return Ok(None) };
         Spec::parse_in(Path::new(path).parent().unwrap_or(Path::new("")), path, &text)?;
@@ -75,12 +75,9 @@ fn step(change: &Change, coupled: bool) -> Option<u8> {
 
 fn zero(offset: f64, joint: usize, spec: &Spec) -> String {
     let sign = if offset < 0.0 { '-' } else { '+' };
-    match spec.variables[joint].kind {
-        VariableKind::Revolute => format!(" {sign} {} deg", digits(offset.to_degrees().abs(), DIGITS)),
-        VariableKind::Prismatic => {
-            format!(" {sign} {} {}", digits(offset.abs(), DIGITS), spec.length.symbol())
-        }
-    }
+    let kind = spec.variables[joint].kind;
+    let (value, unit) = kind.either((offset.to_degrees(), "deg"), (offset, spec.length.symbol()));
+    format!(" {sign} {} {unit}", digits(value.abs(), DIGITS))
 }
 
 /// Returns the placement of a frame or the tool: its key and value.

@@ -2,9 +2,8 @@
 //!
 //! Report of `abbe doctor`.
 
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::number::digits;
-use abbe_study::{Machine, Notes, mistake};
+use abbe_study::{About, Machine, Notes, Result, mistake};
 use serde::Serialize;
 
 use super::columns::Columns;
@@ -34,10 +33,9 @@ pub struct Doctor<'a> {
 
 impl Doctor<'_> {
     /// Searches the interpretations.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let columns = Columns::read(self.data, &self.machine.spec, MOST_ROWS, notes)?;
-        let kinematics = Kinematics::new(&self.machine.spec)
-            .map_err(|error| mistake::whole(&self.machine.origin, &error))?;
+        let kinematics = Kinematics::new(&self.machine.spec).about(&self.machine.origin)?;
         let formats = PoseFormat::all(columns.pose.first().map_or(0, Vec::len));
         if formats.is_empty() {
             let count = columns.pose.first().map_or(0, Vec::len);

@@ -13,8 +13,7 @@ use nalgebra::{Cholesky, DVector, Dyn};
 use serde::Serialize;
 
 use super::chain_numbers::{ChainError, chain_errors, error_unit, frame_error, unknowns_of};
-use super::priors::Prior;
-use super::setup::Setup;
+use super::{Prior, Setup};
 
 /// 95 % quantile of χ² with one degree of freedom.
 const CHI_SQUARED_95: f64 = 3.84;

@@ -1,11 +1,10 @@
 //! Variance of the fit between regions of joint space and between runs of rows, in its covariance.
 
 use abbe::identify::{BetweenBlocks, Failure, Folds, between_blocks};
-use abbe_spec::diagnostic::Diagnostics;
 
-use super::complete_fit::BLOCKS;
-use super::solve::{Solved, diagnose};
+use super::{BLOCKS, Solved, diagnose};
 use crate::data::Data;
+use abbe_study::Result;
 use abbe_study::number::digits;
 
 /// Largest probability by chance at which a variance between blocks is included.
@@ -13,7 +12,7 @@ const CHANCE: f64 = 0.01;
 
 /// Includes the variance between regions, or between runs of rows, in the covariance of the fit, if
 /// it is larger than that of independent configurations, with a note. The larger one counts.
-pub(super) fn include_between_blocks(solved: &mut Solved, data: &Data) -> Result<(), Diagnostics> {
+pub(super) fn include_between_blocks(solved: &mut Solved, data: &Data) -> Result<()> {
     let Solved { model, fit, .. } = &*solved;
     let rows = &data.observations;
     let kinds = [

@@ -2,14 +2,11 @@
 //! fit.
 
 use abbe::identify::{Failure, between_stations};
-use abbe_spec::diagnostic::Diagnostics;
 
-use super::priors::Prior;
-use super::setup::Setup;
-use super::solve::Solved;
+use super::{Prior, Setup, Solved};
 use crate::data::Data;
-use abbe_study::mistake;
 use abbe_study::number::{self, digits};
+use abbe_study::{About, Result};
 
 /// Largest probability of a difference between stations by chance at which it is included in the
 /// covariance.
@@ -17,16 +14,12 @@ const CHANCE: f64 = 0.05;
 
 /// Adds the variance component between the stations of the rows to the covariance of the fit, with
 /// a note.
-pub(super) fn include_between_stations(
-    solved: &mut Solved,
-    setup: &Setup,
-    data: &Data,
-) -> Result<(), Diagnostics> {
+pub(super) fn include_between_stations(solved: &mut Solved, setup: &Setup, data: &Data) -> Result<()> {
     let found = || -> Result<_, Failure> {
         let sizes = solved.model.priors(Prior::DEFAULT_SHARE)?;
         between_stations(&solved.model, &data.observations, &solved.fit, &sizes)
     };
-    let found = found().map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let found = found().about(&data.file)?;
     let Some(between) = found.filter(|between| between.p < CHANCE) else { return Ok(()) };
     solved.fit.covariance = between.covariance;
     let share = between.share * Prior::DEFAULT_SHARE;

@@ -1,11 +1,10 @@
 //! Tests whether the corners that a camera found lie on the board of the map.
 
 use abbe::identify::{Model, Observable, Observation};
-use abbe_spec::diagnostic::Diagnostics;
 
 use crate::data::Data;
-use abbe_study::mistake;
 use abbe_study::number::digits;
+use abbe_study::{Result, mistake};
 
 /// Largest number of views that are tested.
 const VIEWS: usize = 40;
@@ -16,7 +15,7 @@ const MISMATCH: f64 = 0.05;
 
 /// Returns an error if the corners do not lie on the board in most views. The machine does not
 /// matter.
-pub(super) fn check_board(model: &Model, data: &Data) -> Result<(), Diagnostics> {
+pub(super) fn check_board(model: &Model, data: &Data) -> Result<()> {
     let rows = &data.observations;
     if model.camera.is_none() || rows.is_empty() {
         return Ok(());

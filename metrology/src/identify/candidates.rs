@@ -6,10 +6,9 @@ use abbe_codegen::chain::frame_twists;
 use abbe_codegen::graph::Graph;
 use abbe_spec::{ChainNumber, Factor, Frame, Spec};
 
-use super::derived::{Derived, DerivedKind};
-use super::families::{Family, Harmonics};
 use super::options::family_name;
 use super::terms::{Angle, Basis, ErrorSite, HeldJoint, Term, Wave, held_ranges};
+use super::{Derived, DerivedKind, Family, Harmonics};
 
 /// Groups of terms by stage, the likelier ones first. A group is accepted or rejected as a whole,
 /// such as the sine and cosine of a joint. Each stage is tried beside the terms accepted in earlier

@@ -6,12 +6,10 @@ use abbe::identify::{CandidateTerms, Folds, Model, ModelTerm, Observation, Selec
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::candidates::Stages;
-use super::complete_fit::{Assessed, FitInput};
-use super::extended::{extended, own_magnitudes};
-use super::solve::{Solved, diagnose, solve};
-use super::terms::{Basis, ErrorSite, Term};
-use abbe_study::Notes;
+use super::{
+    Assessed, Basis, ErrorSite, FitInput, Solved, Stages, Term, diagnose, extended, own_magnitudes, solve,
+};
+use abbe_study::{Notes, Result};
 
 /// Probability of accepting a term by chance, over all stages.
 const CHANCE: f64 = 0.05;
@@ -37,11 +35,7 @@ pub(super) struct Chosen {
 /// The first set has the terms of all families. A family alone can be better: among more
 /// candidates, its best term can lose to one of another family that fits as well at first. The
 /// terms of all families are preferred only if they are significantly better than the best family.
-pub(super) fn choose(
-    input: &FitInput,
-    sets: &[(String, Stages)],
-    notes: &mut dyn Notes,
-) -> Result<Chosen, Diagnostics> {
+pub(super) fn choose(input: &FitInput, sets: &[(String, Stages)], notes: &mut dyn Notes) -> Result<Chosen> {
     let FitInput { spec, data, settings, .. } = *input;
     let offered = Offered::new(sets);
     let own = own_magnitudes(spec);
@@ -150,7 +144,7 @@ impl Selector<'_> {
 
     /// Selects terms from stages of groups. Stages that would begin after the time limit are
     /// skipped.
-    fn forward(&mut self, stages: &Stages, notes: &mut dyn Notes) -> Result<Chosen, Diagnostics> {
+    fn forward(&mut self, stages: &Stages, notes: &mut dyn Notes) -> Result<Chosen> {
         let FitInput { data, settings, .. } = *self.input;
         let rows = &data.observations;
         let factors = &self.offered.factors;
@@ -221,7 +215,7 @@ impl Chosen {
         input: &FitInput,
         constant: &Assessed,
         notes: &mut dyn Notes,
-    ) -> Result<Option<(Self, Assessed)>, Diagnostics> {
+    ) -> Result<Option<(Self, Assessed)>> {
         while !self.groups.is_empty() {
             notes.go_on()?;
             let (terms, count) = (self.terms(), self.groups.len());

@@ -2,14 +2,11 @@
 
 use abbe::LengthUnit;
 use abbe::identify::Model;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::TERMS;
 
-use super::report::Compared;
-use super::setup::Setup;
-use super::solve::Solved;
+use super::{Compared, Setup, Solved};
 use crate::data::Data;
-use abbe_study::{mistake, number};
+use abbe_study::{About, Result, mistake, number};
 
 /// Probability by chance at which terms count as worse than constant errors on the test rows.
 const WORSE: f64 = 0.05;
@@ -22,12 +19,10 @@ pub(super) fn compare(
     delivered: &Model,
     data: &Data,
     used: impl Fn(usize) -> bool + Sync,
-) -> Result<Compared, Diagnostics> {
+) -> Result<Compared> {
     let rows = &data.observations;
-    let distances = |model: &Model, x: &[f64]| {
-        let distances = model.distances_where(rows, |i| used(i).then_some(x));
-        distances.map_err(|failure| mistake::whole(&data.file, &failure))
-    };
+    let distances =
+        |model: &Model, x: &[f64]| model.distances_where(rows, |i| used(i).then_some(x)).about(&data.file);
     // Few models at a time, to limit the memory for a million rows.
     let before = distances(delivered, &[])?.into_figures();
     let simple = distances(&solved.simple, &solved.simple_x)?;
@@ -51,7 +46,7 @@ pub(super) fn compare(
 
 /// Returns an error if the fit ends worse than it began: the model then does not describe these
 /// data.
-pub(super) fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup) -> Result<(), Diagnostics> {
+pub(super) fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup) -> Result<()> {
     let (before, after) = (compared.before.rms, compared.after.rms);
     if after <= 1.5 * before || after <= 10.0 * setup.real.uncertainty.length {
         return Ok(());

@@ -1,21 +1,17 @@
 //! Complete fit: constant errors together with selected terms.
 
-use abbe::identify::{Comparison, Distances, Failure, Folds, cross_validate};
+use abbe::identify::{Comparison, Distances, Folds, cross_validate};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
 
 use super::as_joint_errors::number_terms;
-use super::extended::{extended, own_magnitudes};
 use super::instruments::estimate;
-use super::interpretation_check::check_interpretation;
-use super::options::Settings;
-use super::plausibility::check_plausibility;
-use super::setup::Setup;
-use super::solve::{Solved, diagnose, solve};
-use super::terms::Term;
+use super::{
+    Settings, Setup, Solved, Term, check_interpretation, check_plausibility, diagnose, extended,
+    own_magnitudes, solve,
+};
 use crate::data::{Data, Map};
-use abbe_study::{Notes, mistake};
+use abbe_study::{About, Notes, Result};
 
 /// Spec with derived inputs, and the rows that a model is fitted to.
 #[derive(Clone, Copy)]
@@ -41,16 +37,15 @@ impl FitInput<'_> {
         added: usize,
         checked: bool,
         notes: &mut dyn Notes,
-    ) -> Result<Setup<'i>, Diagnostics> {
+    ) -> Result<Setup<'i>> {
         let Self { map, data, settings, .. } = *self;
-        let fail = |failure: Failure| mistake::whole(&data.file, &failure);
         let mut setup = Setup::new(interpreter, map, data, added)?;
         if checked {
             check_interpretation(&setup, map, data)?;
         }
-        setup.come_near(data).map_err(fail)?;
+        setup.come_near(data).about(&data.file)?;
         if checked {
-            check_plausibility(&setup, map, data, notes).map_err(fail)?;
+            check_plausibility(&setup, map, data, notes).about(&data.file)?;
         }
         estimate(&mut setup, map, data, settings)?;
         Ok(setup)
@@ -64,7 +59,7 @@ impl FitInput<'_> {
         terms: &[Term],
         checked: bool,
         notes: &mut dyn Notes,
-    ) -> Result<(Setup<'i>, Solved<'i>), Diagnostics> {
+    ) -> Result<(Setup<'i>, Solved<'i>)> {
         let own = own_magnitudes(self.spec);
         let added = own.len() + terms.len() + number_terms(self.spec).len();
         let setup = self.setup(interpreter, added, checked, notes)?;
@@ -89,7 +84,7 @@ pub(super) struct Assessed {
 }
 
 impl Assessed {
-    pub(super) fn new(solved: &Solved, data: &Data) -> Result<Self, Diagnostics> {
+    pub(super) fn new(solved: &Solved, data: &Data) -> Result<Self> {
         let Solved { model, fit, cross_validated, .. } = solved;
         let rows = &data.observations;
         let by_block = |folds: Folds| {

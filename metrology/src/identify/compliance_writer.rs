@@ -5,9 +5,8 @@ use abbe_spec::Spec;
 use abbe_spec::edit::TableText;
 use abbe_spec::edit::write::{list, number, quoted};
 
-use super::found_model::{FoundModel, FoundTerm};
 use super::spec_writer::{DIGITS, repeatable};
-use super::terms::{Basis, ErrorSite};
+use super::{Basis, ErrorSite, FoundModel, FoundTerm};
 use abbe_study::number::digits;
 
 /// Rotational errors in the order of the rows of a compliance.

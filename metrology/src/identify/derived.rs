@@ -8,8 +8,7 @@ use abbe_spec::edit::write::free_name;
 use abbe_spec::expr::Dimension;
 use abbe_spec::{Input, Spec};
 
-use super::families::Family;
-use super::terms::{Basis, ErrorSite, Term};
+use super::{Basis, ErrorSite, Family, Term};
 use crate::data::{
     Channel, Data, FromRows, Map, change_with_reference, in_order, set_input, with_references,
 };

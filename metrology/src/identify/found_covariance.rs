@@ -18,11 +18,8 @@ use abbe::identify::{Failure, Measurement, Model, Observation, Unknown};
 use abbe::{Component, Error, Pose, Quantity};
 use nalgebra::{DMatrix, RowDVector, SymmetricEigen};
 
-use super::as_joint_errors::AsJointErrors;
-use super::chain_numbers::unknowns_of;
 use super::fitted::{fitted_mountings, fitted_targets};
-use super::setup::Setup;
-use super::solve::Solved;
+use super::{AsJointErrors, Setup, Solved, unknowns_of};
 
 /// Number of configurations at which effects are evaluated.
 const SAMPLES: usize = 100;
@@ -200,10 +197,7 @@ fn effects(model: &Model, unknowns: &[Unknown], points: &[[f64; 3]], rows: &[Obs
             moved.extend(moves.map(|row| row.clone_owned()).filter(|row| row.iter().all(|v| v.is_finite())));
         }
     }
-    match moved.is_empty() {
-        true => DMatrix::zeros(0, unknowns.len()),
-        false => DMatrix::from_rows(&moved),
-    }
+    if moved.is_empty() { DMatrix::zeros(0, unknowns.len()) } else { DMatrix::from_rows(&moved) }
 }
 
 /// Returns the combinations `U V` of the parts that have an effect, in columns.

@@ -7,14 +7,11 @@ use abbe_spec::expr::Symbol;
 use abbe_spec::visible::alters_text;
 use abbe_spec::{Fitted, Spec};
 
-use super::as_joint_errors::{AsJointErrors, JointError};
-use super::derived::Derived;
 use super::found_covariance::FoundCovariance;
-use super::found_placement::FoundPlacement;
-use super::instruments::InstrumentFit;
-use super::joint_profiles::JointProfile;
-use super::solve::Solved;
-use super::terms::{Basis, ErrorSite, Term};
+use super::{
+    AsJointErrors, Basis, Derived, ErrorSite, FoundPlacement, InstrumentFit, JointError, JointProfile,
+    Solved, Term,
+};
 use crate::data::Data;
 use abbe_study::number::digits;
 use abbe_study::version;

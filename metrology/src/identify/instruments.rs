@@ -2,16 +2,13 @@
 //! the data.
 
 use abbe::identify::{Failure, Fit, Model, Options, VarianceComponent, variance_components};
-use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
-use super::options::Settings;
 use super::priors::fit_with_places;
-use super::setup::Setup;
-use super::solve::diagnose;
+use super::{Settings, Setup, diagnose};
 use crate::data::{Data, Map};
-use abbe_study::mistake;
 use abbe_study::number::digits;
+use abbe_study::{Result, mistake};
 
 /// Largest number of iterations of the estimation.
 const ROUNDS: usize = 25;
@@ -100,12 +97,7 @@ fn uncertainty(model: &Model, part: usize) -> f64 {
 
 /// Estimates the uncertainty of every instrument without a stated one, and that of positions and
 /// rotations, from the residuals of a fit of constant errors.
-pub(super) fn estimate(
-    setup: &mut Setup,
-    map: &Map,
-    data: &Data,
-    settings: &Settings,
-) -> Result<(), Diagnostics> {
+pub(super) fn estimate(setup: &mut Setup, map: &Map, data: &Data, settings: &Settings) -> Result<()> {
     let parts = parts(map);
     let unknown: Vec<usize> = (0..parts.len()).filter(|i| parts[*i].is_estimated).collect();
     if unknown.is_empty() {

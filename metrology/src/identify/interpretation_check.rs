@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 
 use abbe::identify::{Measurement, Model, Observation, Options, Station, Uncertainty, fit};
 use abbe::{Error, Pose, VariableKind};
-use abbe_spec::diagnostic::Diagnostics;
 
 use super::map_interpretation::MapInterpretation;
 use super::reading_units::check_reading_units;
@@ -17,7 +16,7 @@ use crate::interpretations::{
     Chain, Change, Interpretation, MOST, Observed, Parts, Ranked, SIGNS, Search, Tolerance, Trial, ranked,
     words,
 };
-use abbe_study::{mistake, number};
+use abbe_study::{Result, mistake, number};
 
 /// Largest numbers of rows for the fit and for the search.
 pub(super) const ROWS: usize = 150;
@@ -37,11 +36,7 @@ const BETTER: f64 = 5.0;
 /// Returns an error if the nominal machine fits the data badly and another interpretation fits
 /// well. Otherwise returns the root mean square position error with base and tool fitted, in the
 /// length unit; none if the fit fails.
-pub(crate) fn check_interpretation(
-    setup: &Setup,
-    map: &Map,
-    data: &Data,
-) -> Result<Option<f64>, Diagnostics> {
+pub(crate) fn check_interpretation(setup: &Setup, map: &Map, data: &Data) -> Result<Option<f64>> {
     check_reading_units(setup, map, data)?;
     let rows = subsample(&data.observations, ROWS);
     let rows = setup.ideal.as_poses(&rows).into_owned();

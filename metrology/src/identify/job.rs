@@ -8,24 +8,18 @@ use std::collections::HashSet;
 use abbe::identify::{Configurations, Distances, Failure, Selection, drift};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::TEST;
-use abbe_study::{Machine, Notes, finite, mistake};
+use abbe_study::{About, Machine, Notes, Result, finite};
 
 use super::alternatives::{Explanations, target_on_axis};
-use super::as_joint_errors::AsJointErrors;
 use super::between_blocks::include_between_blocks;
 use super::between_stations::include_between_stations;
 use super::candidates::competing;
 use super::chain_numbers::leg_terms;
 use super::choose::{Chosen, choose};
 use super::compare::{compare, refuse_worse};
-use super::complete_fit::FitInput;
 use super::derived::{Derived, derived, has_one_station, with_columns, with_inputs};
-use super::families::{Family, Harmonics};
 use super::found_covariance::FoundCovariance;
-use super::found_model::FoundModel;
-use super::indistinguishable::indistinguishable;
 use super::instruments::{InstrumentFit, instrument_and_coordinate_fits, unequal_note};
 use super::known_distances::known_distance_fits;
 use super::options::{LOSSES, ONLY, Settings, family_name};
@@ -34,17 +28,13 @@ use super::plausibility::{check_lengths, sum_note, tool_note};
 use super::point_residuals::points;
 use super::profiles::{FoundProfiles, find_profiles};
 use super::read_back::{ReadBack, not_read_back, read_back};
-use super::report::{
-    Certainty, Counts, CrossValidation, LeftOut, Parameter, Report, ResidualDrift, TermGain,
-    TestExtrapolation, WeaklyDetermined,
-};
-use super::row_notes::RowNotes;
-use super::scale::scale_note;
-use super::setup::Setup;
-use super::solve::Solved;
-use super::terms::Term;
 use super::unexplained::unexplained;
 use super::unread::comparable;
+use super::{
+    AsJointErrors, Certainty, Counts, CrossValidation, Family, FitInput, FoundModel, Harmonics, LeftOut,
+    Parameter, Report, ResidualDrift, RowNotes, Setup, Solved, Term, TermGain, TestExtrapolation,
+    WeaklyDetermined, indistinguishable, scale_note,
+};
 use crate::data::{Data, Map, Summary, hash};
 use crate::{Acceptance, Judged};
 
@@ -94,12 +84,12 @@ impl Identify {
 
     /// Fits the data and selects terms on them alone, then assesses the result on the test data, if
     /// there are any.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         self.run_on(Cow::Borrowed(&self.data), self.test.as_ref().map(Cow::Borrowed), notes)
     }
 
     /// Runs the identification and consumes the data, so that they are never in memory twice.
-    pub fn run_once(&mut self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run_once(&mut self, notes: &mut dyn Notes) -> Result<Report> {
         let (data, test) = (std::mem::take(&mut self.data), self.test.take());
         self.run_on(Cow::Owned(data), test.map(Cow::Owned), notes)
     }
@@ -109,7 +99,7 @@ impl Identify {
         data: Cow<'_, Data>,
         test: Option<Cow<'_, Data>>,
         notes: &mut dyn Notes,
-    ) -> Result<Report, Diagnostics> {
+    ) -> Result<Report> {
         let Self { machine, map, settings, .. } = self;
         let overlap = test.as_deref().map_or(0, |test| train_test_overlap(&data, test));
         if let Some(warning) =
@@ -179,6 +169,22 @@ impl Identify {
         };
         finite(&data.file, report(self, &identified, &data, test.as_deref())?)
     }
+
+    /// Fits constants and terms, and finds profiles beside them. The interpreter is that of the
+    /// terms.
+    fn modelled<'a>(
+        &self,
+        input: &FitInput,
+        interpreter: &'a Interpreter,
+        terms: &[Term],
+        is_checked: bool,
+        notes: &mut dyn Notes,
+    ) -> Result<Modelled<'a>> {
+        let (setup, solved) = input.complete_fit(interpreter, terms, is_checked, notes)?;
+        let families = if solved.is_placement() { &[][..] } else { &self.terms };
+        let (profiles, of_profiles) = find_profiles(families, input, (&setup, &solved), notes)?;
+        Ok(Modelled { setup, solved, profiles, notes: of_profiles })
+    }
 }
 
 /// Probability by chance up to which terms count as better beside profiles.
@@ -198,24 +204,6 @@ impl Modelled<'_> {
     fn cross_validated(&self) -> &Distances {
         let profiles = self.profiles.as_ref().map(FoundProfiles::cross_validated);
         profiles.unwrap_or(&self.solved.cross_validated)
-    }
-}
-
-impl Identify {
-    /// Fits constants and terms, and finds profiles beside them. The interpreter is that of the
-    /// terms.
-    fn modelled<'a>(
-        &self,
-        input: &FitInput,
-        interpreter: &'a Interpreter,
-        terms: &[Term],
-        is_checked: bool,
-        notes: &mut dyn Notes,
-    ) -> Result<Modelled<'a>, Diagnostics> {
-        let (setup, solved) = input.complete_fit(interpreter, terms, is_checked, notes)?;
-        let families = if solved.is_placement() { &[][..] } else { &self.terms };
-        let (profiles, of_profiles) = find_profiles(families, input, (&setup, &solved), notes)?;
-        Ok(Modelled { setup, solved, profiles, notes: of_profiles })
     }
 }
 
@@ -281,23 +269,17 @@ fn found_model(
     Ok((found, parameters(setup, solved, spec, converted)))
 }
 
-fn report(
-    job: &Identify,
-    identified: &Identified,
-    data: &Data,
-    test: Option<&Data>,
-) -> Result<Report, Diagnostics> {
+fn report(job: &Identify, identified: &Identified, data: &Data, test: Option<&Data>) -> Result<Report> {
     let Identify { machine, map, settings, .. } = job;
     let Identified { setup, solved, constant, cross_validation, chosen, overlap, .. } = *identified;
     let (spec, rows) = (&machine.spec, &data.observations);
     let Solved { model, fit, .. } = solved;
     let identifiable = &fit.identifiable;
-    let fail = |failure: Failure| mistake::whole(&data.file, &failure);
-    let groups = indistinguishable(model, &rows[0].q, &setup.moved(rows), setup.pose)
-        .map_err(|error| mistake::whole(&data.file, &error))?;
+    let groups = indistinguishable(model, &rows[0].q, &setup.moved(rows), setup.pose).about(&data.file)?;
     let compared_fit = compare(solved, constant, &setup.delivered, data, |i| fit.is_kept(i))?;
     refuse_worse(&compared_fit, data, setup)?;
-    let [instruments, coordinates] = instrument_and_coordinate_fits(model, map, data, fit).map_err(fail)?;
+    let [instruments, coordinates] =
+        instrument_and_coordinate_fits(model, map, data, fit).about(&data.file)?;
     let test = test.map(|test| comparable(test, data, model)).transpose()?;
     let test = test.as_deref();
     let assess = |test: &Data| compare(solved, constant, &setup.delivered, test, |_| true);
@@ -314,13 +296,13 @@ fn report(
         instruments.iter().chain(&coordinates).filter(|one| one.estimated).cloned().collect();
     let found_model = |converted| found_model(identified, spec, data, left, &estimated, converted);
     let back = |found: &FoundModel| read_back(found, machine, map, data, |i| fit.is_kept(i));
-    let (mut found, mut parameters) = found_model(true).map_err(fail)?;
+    let (mut found, mut parameters) = found_model(true).about(&data.file)?;
     let mut read = back(&found);
     if let Ok(Some(written)) = &read
         && written.differs([left, length])
     {
         // Numbers of the chain are errors of frames to first order only.
-        (found, parameters) = found_model(false).map_err(fail)?;
+        (found, parameters) = found_model(false).about(&data.file)?;
         read = back(&found);
     }
     let note = |written: &ReadBack| found.read_back_note(spec, written, [left, length]);
@@ -338,10 +320,10 @@ fn report(
     let notes = solved.notes.iter().chain(&chosen.notes[..]).cloned();
     let kept: Vec<_> = fit.kept(rows).collect();
     let RowNotes { notes: of_rows, has_moved } =
-        RowNotes::new(setup, model, &fit.x, (data, &kept)).map_err(fail)?;
+        RowNotes::new(setup, model, &fit.x, (data, &kept)).about(&data.file)?;
     let notes = notes
         .chain(of_rows)
-        .chain(scale_note(&setup.real, rows, &setup.moved(rows)).map_err(fail)?)
+        .chain(scale_note(&setup.real, rows, &setup.moved(rows)).about(&data.file)?)
         .chain(unequal_note(&coordinates))
         .chain(tool_note(setup, model, fit))
         .chain(sum_note(setup, model, fit))
@@ -350,7 +332,7 @@ fn report(
         .chain(test_sizes.and_then(|test| test.note_on_terms(spec.length)));
     let gains = chosen.groups.iter();
     let gains = gains.map(|(terms, selection)| gain(spec, &found, terms, selection, length));
-    let drift = drift(model, &kept, &fit.x).map_err(fail)?;
+    let drift = drift(model, &kept, &fit.x).about(&data.file)?;
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -365,7 +347,7 @@ fn report(
         weakly_determined: WeaklyDetermined::all(model, identifiable, spec.length),
         groups,
         joint_errors: found.joint_errors.clone(),
-        target_on_axis: target_on_axis(setup, rows).map_err(fail)?,
+        target_on_axis: target_on_axis(setup, rows).about(&data.file)?,
         magnitudes: magnitudes(spec, solved),
         parameters,
         prior: solved.prior.filter(|_| !solved.is_placement()),

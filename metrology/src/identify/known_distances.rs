@@ -1,12 +1,11 @@
 //! Known distances between the points of instruments: their residuals in a fit.
 
 use abbe::identify::{Fit, KnownDistance, Model};
-use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use super::unread::read;
 use crate::data::{Data, Map};
-use abbe_study::mistake;
+use abbe_study::{Result, mistake};
 
 /// Known distance between the points of two instruments, and its residual in the fit.
 #[derive(Clone, Debug, Serialize)]
@@ -40,11 +39,7 @@ pub(super) fn known_distance_fits(model: &Model, fit: &Fit) -> Vec<KnownDistance
 /// Returns the known distances whose ends the rows read: others say nothing of the machine.
 ///
 /// Returns an error if an end that no row reads has an unknown position: it could then be anywhere.
-pub(super) fn measured_distances(
-    model: &Model,
-    map: &Map,
-    data: &Data,
-) -> Result<Vec<KnownDistance>, Diagnostics> {
+pub(super) fn measured_distances(model: &Model, map: &Map, data: &Data) -> Result<Vec<KnownDistance>> {
     let Some(all) = map.instruments() else { return Ok(Vec::new()) };
     let read = read(model, &data.observations);
     let unread = |known: &KnownDistance| {

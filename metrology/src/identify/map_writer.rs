@@ -1,17 +1,14 @@
 //! Writes the map of the identified machine: the map of the data with the identified placement and
 //! the inputs derived from rows.
 
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::{Item, Section};
 use abbe_spec::edit::write::{lines, list, number, quantity, quoted};
 use abbe_spec::edit::{Edits, TableText};
+use abbe_spec::{Item, Section, Spec};
 
 use super::derived::with_inputs;
-use super::found_model::FoundModel;
-use super::found_placement::{FoundPlacement, PlacementAtStation};
-use super::instruments::InstrumentFit;
+use super::{FoundModel, FoundPlacement, InstrumentFit, PlacementAtStation};
 use crate::data::{Map, TargetFrame, UNKNOWN, quaternion};
+use abbe_study::Result;
 use abbe_study::number::digits;
 
 impl FoundModel {
@@ -20,7 +17,7 @@ impl FoundModel {
     /// replaced.
     ///
     /// The text is parsed again; the function fails if it is not a map of the identified spec.
-    pub fn identified_map(&self, map: &Map, spec: &Spec, path: &str) -> Result<String, Diagnostics> {
+    pub fn identified_map(&self, map: &Map, spec: &Spec, path: &str) -> Result<String> {
         let (whole, needed) = (with_inputs(spec, &self.derived), self.needed(spec));
         let from_rows = needed.iter().filter_map(|one| Some((&one.name, one.from_rows()?)));
         let mut added = String::new();

@@ -74,6 +74,10 @@ mod terms;
 mod unexplained;
 mod unread;
 
+use as_joint_errors::AsJointErrors;
+use complete_fit::{Assessed, BLOCKS, FitInput};
+use solve::{Solved, diagnose, solve};
+
 pub use alternatives::Alternative;
 pub use as_joint_errors::JointError;
 pub use candidates::{Stages, candidates};

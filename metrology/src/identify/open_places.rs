@@ -3,7 +3,6 @@
 
 use abbe::Component;
 use abbe::identify::{Failure, Fit, Fixture, Measurement, Options, Unknown};
-use abbe_spec::diagnostic::Diagnostics;
 
 use super::fitted::{
     fitted_fixture, fitted_intrinsics, fitted_mountings, fitted_stations, fitted_targets, fitted_zero,
@@ -11,7 +10,7 @@ use super::fitted::{
 use super::priors::{Prior, fit_with_places};
 use super::setup::Setup;
 use crate::data::{Data, Map};
-use abbe_study::mistake;
+use abbe_study::{About, Result};
 
 impl Setup<'_> {
     /// Places the contacts at unknown positions at the mean position of their target by the machine
@@ -43,7 +42,7 @@ impl Setup<'_> {
     /// zeros that were not identified before, and likewise the mounting and the intrinsic
     /// parameters of a camera, for the machine as specified. Returns their fit; none if there was
     /// nothing to fit.
-    pub(crate) fn find_places(&mut self, map: &Map, data: &Data) -> Result<Option<Fit>, Diagnostics> {
+    pub(crate) fn find_places(&mut self, map: &Map, data: &Data) -> Result<Option<Fit>> {
         let stations = (0..self.open.stations.len()).filter(|i| self.open.stations[*i]);
         let stations = stations.flat_map(|i| Component::ALL.map(|component| Unknown::Base(i, component)));
         let stations: Vec<Unknown> = stations.collect();
@@ -52,14 +51,13 @@ impl Setup<'_> {
         if unknowns.is_empty() {
             return Ok(None);
         }
-        let fail = |failure: Failure| mistake::whole(&data.file, &failure);
         if self.real.camera.is_some() && unknowns.iter().any(|unknown| unknown.is_tool()) {
-            self.come_near(data).map_err(fail)?;
+            self.come_near(data).about(&data.file)?;
         }
         let model = self.real.with(unknowns);
-        let priors = Prior::Auto.for_model(&model, self).map_err(fail)?;
+        let priors = Prior::Auto.for_model(&model, self).about(&data.file)?;
         let options = Options { priors, ..Options::default() };
-        let fit = fit_with_places(&model, &data.observations, options).map_err(fail)?;
+        let fit = fit_with_places(&model, &data.observations, options).about(&data.file)?;
         self.set_stations(&fitted_stations(&model, &fit.x));
         let fixtures = (0..model.fixtures.len())
             .map(|i| Fixture { geometry: fitted_fixture(&model, &fit.x, i), ..model.fixtures[i].clone() });

@@ -6,8 +6,7 @@ use std::time::Duration;
 
 use abbe::identify::Loss;
 
-use super::families::Family;
-use super::priors::Prior;
+use super::{Family, Prior};
 use abbe_study::options::{Choices, NumericOption, share};
 
 /// Number of parts for cross-validation.
@@ -94,13 +93,6 @@ impl Default for Settings {
     fn default() -> Self {
         let (loss, prior) = Default::default();
         Self { loss, only_placement: false, prior, folds: FOLDS.default, time: None, points: false }
-    }
-}
-
-impl Default for Prior {
-    /// Returns the default: the data choose the scale.
-    fn default() -> Self {
-        Self::Auto
     }
 }
 

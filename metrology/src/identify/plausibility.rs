@@ -2,14 +2,12 @@
 //! lengths that it changes.
 
 use abbe::identify::{Failure, Fit, Loss, Model, Options, Unknown, fit};
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::PRIOR;
 
 use super::interpretation_check::{ROWS, subsample};
-use super::priors::Prior;
-use super::setup::Setup;
+use super::{Prior, Setup};
 use crate::data::{Data, Map};
-use abbe_study::{Notes, mistake, number};
+use abbe_study::{Notes, Result, mistake, number};
 
 /// Residual, as a share of the arm length, above which errors are too large for a machine.
 const LARGE: f64 = 1e-2;
@@ -90,7 +88,7 @@ pub(super) fn check_lengths(
     prior: Prior,
     data: &Data,
     notes: &mut dyn Notes,
-) -> Result<(), Diagnostics> {
+) -> Result<()> {
     let deviation = prior.share().max(Prior::DEFAULT_SHARE) * setup.arm;
     let lengths = fit.identifiable.kept.iter().filter_map(|k| match model.unknowns[*k] {
         unknown @ Unknown::Error(frame, component) if !component.is_rotation() => {

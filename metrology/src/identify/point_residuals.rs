@@ -3,11 +3,10 @@
 use std::collections::HashSet;
 
 use abbe::identify::{EvaluatedModel, Failure, Observation};
-use abbe_spec::diagnostic::Diagnostics;
 
 use super::solve::Solved;
 use crate::data::Data;
-use abbe_study::mistake;
+use abbe_study::{About, Result};
 
 /// Residuals of a measured point, in the frame of the instrument and the length unit.
 #[derive(Clone, Debug)]
@@ -57,11 +56,7 @@ fn residuals(
 }
 
 /// Returns the residuals of every point, for plots.
-pub(super) fn points(
-    solved: &Solved,
-    data: &Data,
-    test: Option<&Data>,
-) -> Result<Vec<PointResidual>, Diagnostics> {
+pub(super) fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Result<Vec<PointResidual>> {
     let Solved { simple, simple_x, model, fit, .. } = solved;
     let (mut before, mut after) = (simple.at(simple_x), model.at(&fit.x));
     let rejected: HashSet<u64> = fit.rejected(&data.observations).map(|row| row.line).collect();
@@ -69,8 +64,7 @@ pub(super) fn points(
     for (data, is_test) in [(data, false)].into_iter().chain(test.map(|test| (test, true))) {
         for row in &data.observations {
             let is_rejected = !is_test && rejected.contains(&row.line);
-            let here = residuals([&mut before, &mut after], row, is_test, is_rejected);
-            points.extend(here.map_err(|failure| mistake::whole(&data.file, &failure))?);
+            points.extend(residuals([&mut before, &mut after], row, is_test, is_rejected).about(&data.file)?);
         }
     }
     Ok(points)

@@ -7,7 +7,7 @@ use abbe::identify::{Failure, Fit, Model, Observation, Options, Unknown, fit};
 use super::setup::Setup;
 
 /// Expected size of errors.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Prior {
     /// Share of the arm length for lengths, and the same number in rad for angles; 0 holds the
     /// errors of frames at zero.
@@ -16,6 +16,7 @@ pub enum Prior {
     /// is none.
     Spec,
     /// 1 mm per metre of arm and 1 mrad, times a scale that the data choose.
+    #[default]
     Auto,
 }
 

@@ -13,20 +13,14 @@ use abbe::identify::{
     fit_profiles,
 };
 use abbe_interpreter::Interpreter;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::{ChainNumber, Deviation, DeviationCause, Source, Spec, Variable};
 
 use super::as_joint_errors::number_terms;
-use super::complete_fit::FitInput;
-use super::families::Family;
-use super::joint_profiles::{JointProfile, JointProfiles};
 use super::profile_table::{ProfileTable, table_name};
-use super::setup::Setup;
-use super::solve::{Solved, solve};
-use super::terms::ErrorSite;
+use super::{ErrorSite, Family, FitInput, JointProfile, JointProfiles, Setup, Solved, solve};
 use abbe_study::number::digits;
-use abbe_study::{Notes, mistake};
+use abbe_study::{About, Notes, Result, mistake};
 
 /// Significance level of the paired test.
 const CHANCE: f64 = 0.01;
@@ -51,7 +45,7 @@ pub(super) fn find_profiles(
     input: &FitInput,
     fitted: (&Setup, &Solved),
     notes: &mut dyn Notes,
-) -> Result<(Option<FoundProfiles>, Vec<String>), Diagnostics> {
+) -> Result<(Option<FoundProfiles>, Vec<String>)> {
     let data = input.data;
     if !families.contains(&Family::Profile) {
         return Ok((None, Vec::new()));
@@ -82,7 +76,7 @@ fn find(
     solved: &Solved,
     offered: &[ProfileJoint],
     notes: &mut dyn Notes,
-) -> Result<Result<FoundProfiles, String>, Diagnostics> {
+) -> Result<Result<FoundProfiles, String>> {
     let FitInput { spec, data, settings, .. } = *input;
     let rows = &data.observations;
     if offered.is_empty() {
@@ -96,7 +90,7 @@ fn find(
     let mut proceed = || !stops.stop() && settings.time.is_none_or(|time| start.elapsed() < time);
     let folds = Folds::new(rows, settings.folds);
     let fitted = fit_profiles(&solved.model, rows, &solved.fit, offered, &folds, &mut proceed);
-    let fitted = fitted.map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let fitted = fitted.about(&data.file)?;
     let on_time = proceed();
     notes.go_on()?;
     let reason = match on_time {
@@ -224,7 +218,7 @@ impl FoundProfiles {
         (first_setup, first): (Setup<'a>, Solved<'a>),
         input: &FitInput,
         notes: &mut dyn Notes,
-    ) -> Result<(Setup<'a>, Solved<'a>), Diagnostics> {
+    ) -> Result<(Setup<'a>, Solved<'a>)> {
         let FitInput { spec, data, settings, .. } = *input;
         let added = first_setup.description.sources.len() - first_setup.declared;
         let mut setup = input.setup(interpreter, added, false, notes)?;
@@ -233,8 +227,7 @@ impl FoundProfiles {
         let sigma = self.fitted.add_uncertainty(&mut solved.fit);
         let mut joints = self.joints;
         joints.iter_mut().for_each(|joint| joint.standard_deviation *= sigma);
-        let deviation = tool_point_deviation(spec, &setup, &data.observations, &joints)
-            .map_err(|failure| mistake::whole(&data.file, &failure))?;
+        let deviation = tool_point_deviation(spec, &setup, &data.observations, &joints).about(&data.file)?;
         let [before, after] = [&first.cross_validated, &self.fitted.cross_validated].map(Distances::figures);
         let profiles = JointProfiles {
             before: before.into(),

@@ -3,16 +3,13 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use abbe::identify::{Failure, Figures};
+use abbe::identify::Figures;
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{Diagnostics, Spec};
 
-use super::derived::Derived;
-use super::found_model::FoundModel;
-use super::setup::Setup;
+use super::{Derived, FoundModel, Setup};
 use crate::data::{Data, Map, change_with_reference};
-use abbe_study::{Machine, mistake, number};
+use abbe_study::{About, Machine, Result, number};
 
 /// Relative difference of two root mean squares that are the same: written values are rounded, and
 /// numbers of the chain replace errors of frames to first order.
@@ -35,7 +32,7 @@ pub(super) fn read_back(
     map: &Map,
     data: &Data,
     is_kept: impl Fn(usize) -> bool + Sync,
-) -> Result<Option<ReadBack>, Diagnostics> {
+) -> Result<Option<ReadBack>> {
     // Changes of the machine are not part of its text.
     let text = machine.text().ok().filter(|_| !machine.is_changed());
     let Some(text) = text else { return Ok(None) };
@@ -51,8 +48,7 @@ pub(super) fn read_back(
     let machine = Interpreter::new(written);
     let setup = Setup::new(&machine, &map, &data, 0)?;
     let left = setup.real.distances_where(&data.observations, |i| is_kept(i).then_some(&[][..]));
-    let left = left.map_err(|failure: Failure| mistake::whole(&data.file, &failure))?;
-    let figures = left.into_figures();
+    let figures = left.about(&data.file)?.into_figures();
     Ok(Some(ReadBack { machine, figures }))
 }
 

@@ -2,13 +2,12 @@
 //! smaller machine.
 
 use abbe::identify::{Failure, Measurement, SizeInformation};
-use abbe_spec::diagnostic::Diagnostics;
 
 use super::setup::Setup;
 use crate::data::{Data, Instrument, Map};
 use crate::interpretations::LENGTHS;
-use abbe_study::mistake;
 use abbe_study::number::digits;
+use abbe_study::{About, Result, mistake};
 
 /// Relative deviation of a ratio from that of two units at which they explain it.
 const NEAR: f64 = 0.1;
@@ -24,9 +23,9 @@ const LEAST: usize = 5;
 
 /// Returns an error if the readings of an instrument are as large as the nominal machine predicts
 /// in another unit than that of the map.
-pub(super) fn check_reading_units(setup: &Setup, map: &Map, data: &Data) -> Result<(), Diagnostics> {
+pub(super) fn check_reading_units(setup: &Setup, map: &Map, data: &Data) -> Result<()> {
     let Some(all) = map.instruments() else { return Ok(()) };
-    let pairs = pairs(setup, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let pairs = pairs(setup, data).about(&data.file)?;
     let metres = setup.description.length.in_metres();
     for instrument in &all.list {
         let own = &pairs[instrument.observables.start];

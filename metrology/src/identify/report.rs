@@ -22,15 +22,10 @@ use abbe_study::extrapolation::ToolPointDeviation;
 use abbe_study::{Residual, Residuals, RunRecord};
 use serde::Serialize;
 
-use super::as_joint_errors::JointError;
-use super::found_model::FoundModel;
-use super::found_placement::FoundPlacement;
-use super::gain::Gain;
-use super::indistinguishable::Indistinguishable;
-use super::instruments::InstrumentFit;
-use super::joint_profiles::JointProfiles;
-use super::known_distances::KnownDistanceFit;
-use super::point_residuals::PointResidual;
+use super::{
+    FoundModel, FoundPlacement, Gain, Indistinguishable, InstrumentFit, JointError, JointProfiles,
+    KnownDistanceFit, PointResidual,
+};
 use crate::AcceptanceVerdict;
 use crate::data::{Data, Summary, Unusable};
 use crate::sizes::Sizes;

@@ -13,8 +13,7 @@ use abbe_spec::option::{ROBUST_TUKEY, STATION_NEW};
 use abbe_study::number::{digits, length, percent};
 
 use super::fitted::{fitted_mountings, fitted_targets};
-use super::priors::Prior;
-use super::setup::Setup;
+use super::{Prior, Setup};
 use crate::data::Data;
 
 /// Probability by chance up to which a place counts as moved.
@@ -239,8 +238,7 @@ const ROWS: usize = 400;
 pub(super) fn outlier_warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option<String> {
     let rows = &data.observations;
     if let Some(plain) = plain {
-        let distances = model.all_distances(rows, &plain.x).ok()?;
-        let mut all = distances.into_values();
+        let mut all = model.all_distances(rows, &plain.x).ok()?.into_values();
         let rms = (all.iter().map(|d| d * d).sum::<f64>() / all.len().max(1) as f64).sqrt();
         // For norms of Gaussian errors, the root mean square is 1.13 times the median and 0.76 of
         // the robust scale.

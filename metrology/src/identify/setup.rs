@@ -11,7 +11,7 @@ use super::known_distances::measured_distances;
 use super::registered::{OpenPlaces, register_in_turn, registered};
 use super::scale::reference_length;
 use crate::data::{Base, Data, Map};
-use abbe_study::mistake;
+use abbe_study::{About, Result, mistake};
 
 /// Manipulator and its placement relative to the instrument.
 pub(crate) struct Setup<'a> {
@@ -44,7 +44,7 @@ impl<'a> Setup<'a> {
         map: &Map,
         data: &Data,
         terms: usize,
-    ) -> Result<Self, Diagnostics> {
+    ) -> Result<Self> {
         let mut setup = Self::without_stations(manipulator, map, &data.observations, terms)?;
         let names = if data.stations.is_empty() { vec![String::new()] } else { data.stations.clone() };
         setup.name_stations(map, &names);
@@ -54,37 +54,33 @@ impl<'a> Setup<'a> {
         for (i, station) in stations.iter_mut().enumerate() {
             if setup.open.stations[i] {
                 station.pose = registered(&setup.real, &measured, i)
-                    .map_err(|failure| mistake::whole(&data.file, &failure))?
+                    .about(&data.file)?
                     .ok_or_else(|| collinear(data, &station.name))?;
             } else if map.stations.pose(&station.name).is_none() && !map.stations.stated.is_empty() {
                 return Err(missing_station(map, data, &station.name));
             }
         }
         setup.set_stations(&stations);
-        setup.place_tool(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+        setup.place_tool(map, data).about(&data.file)?;
         let known = measured_distances(&setup.real, map, data)?;
         setup.models().into_iter().for_each(|model| model.known_distances.clone_from(&known));
-        setup.place_fixtures(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+        setup.place_fixtures(map, data).about(&data.file)?;
         if let Some(row) = data.observations.first() {
             let length = reference_length(&setup.ideal, &row.q, &setup.moved(&data.observations));
-            let length = length.map_err(|error| mistake::whole(&data.file, &error))?;
+            let length = length.about(&data.file)?;
             setup.models().into_iter().for_each(|model| model.reference_length = length);
         }
         Ok(setup)
     }
 
     /// Places the manipulator as the map states, or at `F_0` of the instrument.
-    pub(crate) fn at_home(manipulator: &'a dyn Manipulator, map: &Map) -> Result<Self, Diagnostics> {
+    pub(crate) fn at_home(manipulator: &'a dyn Manipulator, map: &Map) -> Result<Self> {
         Self::with_stations(manipulator, map, &map.station_names())
     }
 
     /// Places the manipulator at every station named in rows that are to be simulated. Returns an
     /// error if the map states some stations, but not one of these.
-    pub(crate) fn at_stations_of(
-        manipulator: &'a dyn Manipulator,
-        map: &Map,
-        data: &Data,
-    ) -> Result<Self, Diagnostics> {
+    pub(crate) fn at_stations_of(manipulator: &'a dyn Manipulator, map: &Map, data: &Data) -> Result<Self> {
         let is_unstated = |name: &&String| map.stations.pose(name).is_none();
         match data.stations.iter().find(is_unstated) {
             Some(name) if !map.stations.stated.is_empty() => Err(missing_station(map, data, name)),
@@ -93,11 +89,7 @@ impl<'a> Setup<'a> {
         }
     }
 
-    fn with_stations(
-        manipulator: &'a dyn Manipulator,
-        map: &Map,
-        names: &[String],
-    ) -> Result<Self, Diagnostics> {
+    fn with_stations(manipulator: &'a dyn Manipulator, map: &Map, names: &[String]) -> Result<Self> {
         if let Some(all) = map.instruments()
             && let Some(instrument) = all.at_unknown_positions().next()
         {
@@ -127,7 +119,7 @@ impl<'a> Setup<'a> {
         map: &Map,
         rows: &[Observation],
         terms: usize,
-    ) -> Result<Self, Diagnostics> {
+    ) -> Result<Self> {
         let mut ideal = ideal_model(manipulator, map);
         ideal.ranges = ranges(rows);
         ideal.stated_freedom *= f64::from(u8::from(map.states_uncertainty()));
@@ -137,7 +129,7 @@ impl<'a> Setup<'a> {
         for (source, role) in description.sources[..declared].iter().zip(&mut real.roles) {
             *role = if source.class == Class::Repeatable { Role::Known } else { Role::Off };
         }
-        let arm = ideal.arm_length().map_err(|error| mistake::whole(&description.name, &error))?;
+        let arm = ideal.arm_length().about(&description.name)?;
         let placement = map.placement.exact;
         let (delivered, open) = (real.clone(), OpenPlaces::default());
         Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, open, arm, declared })

@@ -7,15 +7,12 @@ use abbe_spec::expr::Motion;
 use abbe_spec::option::{ONLY_PLACEMENT, ROBUST_TUKEY};
 
 use super::extended::OwnMagnitude;
-use super::joint_profiles::JointProfiles;
-use super::options::Settings;
 use super::priors::{Prior, fit_with_places};
 use super::row_notes::outlier_warning;
-use super::setup::Setup;
-use super::terms::{Basis, ErrorSite, Term};
+use super::{Basis, ErrorSite, JointProfiles, Settings, Setup, Term};
 use crate::data::Data;
 use abbe_study::number::digits;
-use abbe_study::{Notes, mistake};
+use abbe_study::{Notes, Result, mistake};
 
 /// Share of the prior of constant terms that are held at zero.
 const HELD: f64 = 1e-9;
@@ -54,7 +51,7 @@ pub(super) fn solve<'a>(
     terms: &[Term],
     settings: &Settings,
     notes: &mut dyn Notes,
-) -> Result<Solved<'a>, Diagnostics> {
+) -> Result<Solved<'a>> {
     let rows = &data.observations;
     let diagnose = |cause: Failure| diagnose(&cause, data);
     let options = Options { loss: settings.loss, ..Options::default() };

@@ -4,17 +4,15 @@
 use std::path::Path;
 
 use abbe::{Component, VariableKind};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Section;
 use abbe_spec::edit::write::{free_name, list, number, quantity, quoted};
 use abbe_spec::edit::{Edits, TableText};
 use abbe_spec::expr::{Dimension, Symbol};
-use abbe_spec::{Fitted, Spec};
+use abbe_spec::{Fitted, Section, Spec};
 
 use super::derived::{Derived, with_inputs};
-use super::found_model::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 use super::profile_table::table_name;
-use super::terms::{Basis, ErrorSite, Term};
+use super::{Basis, ErrorSite, FoundError, FoundMagnitude, FoundModel, FoundTerm, Term};
+use abbe_study::Result;
 use abbe_study::number::digits;
 
 /// Spec of an identified machine.
@@ -32,12 +30,7 @@ impl FoundModel {
     ///
     /// The result is parsed again; the function fails if it is not a valid spec. Table files are
     /// resolved relative to `path`.
-    pub fn identified_spec(
-        &self,
-        spec: &Spec,
-        text: &str,
-        path: &str,
-    ) -> Result<IdentifiedSpec, Diagnostics> {
+    pub fn identified_spec(&self, spec: &Spec, text: &str, path: &str) -> Result<IdentifiedSpec> {
         if self.is_placement {
             return Ok(IdentifiedSpec { text: text.to_owned(), added: String::new() });
         }

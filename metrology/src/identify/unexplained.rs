@@ -5,10 +5,8 @@ use abbe_spec::Spec;
 use abbe_spec::edit::TableText;
 use abbe_spec::edit::write::{number, quantity};
 
-use super::found_model::FoundModel;
-use super::setup::Setup;
-use super::solve::Solved;
 use super::spec_writer::DIGITS;
+use super::{FoundModel, Setup, Solved};
 use abbe_study::calibration::random_sources;
 
 /// Normal quantile `Φ⁻¹(0.95)`.

@@ -7,7 +7,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::{MEASURE_NEW_STATION, TEST};
 
 use crate::data::Data;
-use abbe_study::mistake;
+use abbe_study::{Result, mistake};
 
 /// Returns for each observable whether its instrument was read in any of the rows.
 pub(super) fn read(model: &Model, rows: &[Observation]) -> Vec<bool> {
@@ -49,11 +49,7 @@ fn without_unread<'d>(model: &Model, fitted: &[Observation], test: Cow<'d, Data>
 
 /// Returns the test rows at the stations of the fit, with the readings whose instruments it
 /// located.
-pub(super) fn comparable<'d>(
-    test: &'d Data,
-    data: &Data,
-    model: &Model,
-) -> Result<Cow<'d, Data>, Diagnostics> {
+pub(super) fn comparable<'d>(test: &'d Data, data: &Data, model: &Model) -> Result<Cow<'d, Data>> {
     let placed = test.at_stations(data).map_err(|name| unknown_station(test, &name))?;
     without_unread(model, &data.observations, placed).ok_or_else(|| nothing_placed(&test.file))
 }

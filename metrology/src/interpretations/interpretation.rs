@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::change::Change;
-use super::pose_format::PoseFormat;
+use super::{Change, PoseFormat};
 
 /// Units, format and differences from the spec with which the numbers of a file are read.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -2,9 +2,8 @@
 
 use abbe::Pose;
 
-use super::change::Change;
-use super::joints::Length;
 use super::pose_format::{PoseFormat, transposed};
+use super::{Change, Length};
 
 /// Poses of the rows for one interpretation of their numbers.
 pub(crate) struct Observed {

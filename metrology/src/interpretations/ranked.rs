@@ -1,8 +1,7 @@
 //! Ranking of interpretations by number of differences, then by residual.
 
-use super::interpretation::Interpretation;
 use super::pose_residual::{PoseResidual, squares};
-use super::search::{Candidate, Tolerance};
+use super::{Candidate, Interpretation, Tolerance};
 
 /// Residual, as a share of the spread, below which data are free of noise.
 const ROUNDING: f64 = 1e-9;

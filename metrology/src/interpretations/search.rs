@@ -2,16 +2,14 @@
 
 use abbe::analysis::sampling::norm;
 use abbe::{Error, Pose, VariableKind};
-use abbe_spec::diagnostic::Diagnostics;
 
-use super::change::Change;
-use super::interpretation::Interpretation;
 use super::joints::{JointUnits, Length, configurations, joint_values};
 use super::observed::{Observed, spread};
 use super::pose_residual::{PoseResidual, squares};
 use super::registration::registered;
 use super::zeros::{ZeroForm, minimum};
-use abbe_study::{Notes, mistake};
+use super::{Change, Interpretation};
+use abbe_study::{Notes, Result, mistake};
 
 /// Lever of angles, as a share of the spread of the positions.
 const LEVER: f64 = 0.3;
@@ -128,7 +126,7 @@ impl<'a> Search<'a> {
         &self,
         stages: impl IntoIterator<Item = Vec<Trial>>,
         notes: &mut dyn Notes,
-    ) -> Result<Vec<Candidate>, Diagnostics> {
+    ) -> Result<Vec<Candidate>> {
         let mut candidates: Vec<Candidate> = Vec::new();
         for stage in stages {
             if candidates.iter().any(|one| one.share(&self.tolerance) <= self.tolerance.enough) {
@@ -144,7 +142,7 @@ impl<'a> Search<'a> {
         trials: &[Trial],
         candidates: &mut Vec<Candidate>,
         notes: &mut dyn Notes,
-    ) -> Result<(), Diagnostics> {
+    ) -> Result<()> {
         let mut cut = f64::INFINITY;
         for (done, Trial { joints, ends }) in trials.iter().enumerate() {
             notes.progress(done, trials.len());

@@ -4,10 +4,7 @@ use abbe::analysis::sampling;
 use abbe::{Pose, VariableKind, rotation_vector};
 use abbe_spec::Spec;
 
-use super::change::Change;
-use super::interpretation::Interpretation;
-use super::pose_format::PoseFormat;
-use super::search::Candidate;
+use super::{Candidate, Change, Interpretation, PoseFormat};
 use abbe_study::number::digits;
 
 const AXES: [&str; 3] = ["x", "y", "z"];

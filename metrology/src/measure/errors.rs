@@ -3,11 +3,10 @@
 use abbe::analysis::sampling::norm;
 use abbe::identify::{Failure, Measurement, Model, Observation, register};
 use abbe::{Orientation, Pose, deviation};
-use abbe_spec::diagnostic::Diagnostics;
 
 use crate::data::Data;
 use crate::identify::Setup;
-use abbe_study::mistake;
+use abbe_study::{Result, mistake};
 
 /// A row and its error.
 #[derive(Clone, Debug)]
@@ -104,7 +103,7 @@ impl<'a> Errors<'a> {
 }
 
 /// Moves rows that do not determine the pose of the tool to the unusable ones.
-pub(super) fn leave_out(setup: &Setup, data: &mut Data) -> Result<(), Diagnostics> {
+pub(super) fn leave_out(setup: &Setup, data: &mut Data) -> Result<()> {
     let errors = Errors::new(setup);
     let (mut failed, mut hidden) = (None, Vec::new());
     data.observations.retain(|row| match errors.at(row) {

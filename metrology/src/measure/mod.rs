@@ -24,7 +24,7 @@ use crate::identify::{ResidualDrift, RowNotes, Setup, Sizes, check_interpretatio
 use crate::running_sums::RunningSums;
 use crate::{Acceptance, AcceptanceVerdict, Judged};
 use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
-use abbe_study::{Machine, Notes, Residual, Residuals, RunRecord, finite, mistake};
+use abbe_study::{About, Machine, Notes, Residual, Residuals, Result, RunRecord, finite, mistake};
 
 pub use errors::RowError;
 use errors::{Errors, Visit};
@@ -185,17 +185,17 @@ impl Measure {
     }
 
     /// Compares each row with the ideal machine and with the predicted one.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         self.evaluate(self.data.clone(), true, notes)
     }
 
     /// Computes the report without ΔX of each row, with little memory beyond the data.
-    pub fn figures(mut self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn figures(mut self, notes: &mut dyn Notes) -> Result<Report> {
         let data = std::mem::take(&mut self.data);
         self.evaluate(data, false, notes)
     }
 
-    fn evaluate(&self, data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    fn evaluate(&self, data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Report> {
         let Self { machine, map, accept, .. } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
         let data = match data.completed(map, &interpreter, &machine.spec) {
@@ -244,15 +244,14 @@ impl Measure {
             if repeatable > 0 && !map.is_corrected { judge(Judged::Model, predicted, 0.0) } else { None };
         notes.go_on()?;
         let file = evaluated.data.file.clone();
-        let fail = |failure: identify::Failure| mistake::whole(&file, &failure);
-        let residual_test = ResidualTest::new(&setup, map, rows, placed.as_ref()).map_err(fail)?;
+        let residual_test = ResidualTest::new(&setup, map, rows, placed.as_ref()).about(&file)?;
         if !map.states_uncertainty() {
             (evaluated.explained.inside, evaluated.explained.likely) = (None, None);
         }
-        let drift = drift(&setup.real, rows, &[]).map_err(fail)?;
+        let drift = drift(&setup.real, rows, &[]).about(&file)?;
         let RowNotes { notes: of_rows, has_moved } =
             RowNotes::new(&setup, &setup.real, &[], (&evaluated.data, &rows.iter().collect::<Vec<_>>()))
-                .map_err(fail)?;
+                .about(&file)?;
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
@@ -304,14 +303,8 @@ struct Evaluated {
 }
 
 impl Evaluated {
-    fn of_points(
-        setup: &Setup,
-        mut data: Data,
-        keep: bool,
-        notes: &mut dyn Notes,
-    ) -> Result<Self, Diagnostics> {
+    fn of_points(setup: &Setup, mut data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Self> {
         errors::leave_out(setup, &mut data)?;
-        let fail = |failure: identify::Failure| mistake::whole(&data.file, &failure);
         let unit = setup.description.length.symbol();
         let numbers = if setup.pose || setup.ideal.targets_of(0).len() > 1 { 6 } else { 3 };
         let mut sizes = vec![RunningSums::default(); numbers + 1];
@@ -323,7 +316,7 @@ impl Evaluated {
                 notes.progress(i, data.observations.len());
                 notes.go_on()?;
             }
-            let row = errors.row_error(row).map_err(fail)?;
+            let row = errors.row_error(row).about(&data.file)?;
             let distance = row.distance();
             sizes[..numbers].iter_mut().zip(row.error).for_each(|(size, value)| size.add(value));
             sizes[numbers].add(distance);
@@ -341,14 +334,14 @@ impl Evaluated {
         let mut errors: Vec<Size> = (0..3).map(|i| of(i, ["x", "y", "z"][i], unit)).collect();
         errors.push(of(numbers, "norm", unit));
         errors.extend((3..numbers).map(|i| of(i, ["about x", "about y", "about z"][i - 3], "rad")));
-        let explained = explained::explained(setup, &data.observations).map_err(fail)?;
+        let explained = explained::explained(setup, &data.observations).about(&data.file)?;
         let (instruments, row_readings) = (Vec::new(), Vec::new());
         Ok(Self { errors, instruments, explained, norms, visits, rows, row_readings, data })
     }
 
-    fn of_readings(setup: &Setup, all: &Instruments, data: Data) -> Result<Self, Diagnostics> {
+    fn of_readings(setup: &Setup, all: &Instruments, data: Data) -> Result<Self> {
         let Readings { instruments, explained, rows: row_readings, norms } =
-            readings(setup, all, &data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+            readings(setup, all, &data).about(&data.file)?;
         let (errors, norms, visits, rows) = (Vec::new(), norms.into_figures(), Vec::new(), Vec::new());
         Ok(Self { errors, instruments, explained, norms, visits, rows, row_readings, data })
     }

@@ -6,11 +6,11 @@ use abbe::identify::{Failure, Model, Station, Unknown};
 use abbe::{Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::calibration::random_sources;
-use abbe_study::{Notes, Residual, Residuals, mistake};
+use abbe_study::{About, Notes, Residual, Residuals, Result, mistake};
 
 use super::checks::{Check, Checks};
 use super::configurations::{Configurations, Visits};
-use super::vectors::product;
+use super::vectors::{norm, product};
 use crate::data::{Base, Map};
 use crate::identify::{Setup, check_interpretation, check_plausibility};
 
@@ -45,7 +45,7 @@ impl CheckValues {
         map: &Map,
         checks: &Checks,
         notes: &mut dyn Notes,
-    ) -> Result<(Self, Model<'a>), Diagnostics> {
+    ) -> Result<(Self, Model<'a>)> {
         let random = random_sources(manipulator.description());
         let (mut known, mut visits) = (None, Vec::new());
         let mut model = None;
@@ -54,9 +54,8 @@ impl CheckValues {
             if i == 0 {
                 check_interpretation(&setup, map, &check.data)?;
                 let mut near = Setup::new(manipulator, map, &check.data, 0)?;
-                let fail = |failure| mistake::whole(&check.data.file, &failure);
-                near.come_near(&check.data).map_err(fail)?;
-                check_plausibility(&near, map, &check.data, notes).map_err(fail)?;
+                near.come_near(&check.data).about(&check.data.file)?;
+                check_plausibility(&near, map, &check.data, notes).about(&check.data.file)?;
             }
             one_station(check, map)?;
             let known = known.get_or_insert_with(|| Configurations::new(&setup));
@@ -103,13 +102,12 @@ impl CheckValues {
             notes.progress(i, checks.list.len());
             notes.go_on()?;
             let measured = numbers.measured(&model, visits, &common, i == 0);
-            let fail = |failure| mistake::whole(&visits.check.data.file, &failure);
-            numbers.checks.push(measured.map_err(fail)?);
+            numbers.checks.push(measured.about(&visits.check.data.file)?);
         }
         if let (None, [first, ..], [.., last]) = (map.instruments(), &visits[..], &visits[..]) {
             let names = [first, last].map(|visits| checks.calendar.show(visits.check.time));
             let found = residuals(&model, [first, last], &common, [&names[0], &names[1]]);
-            numbers.residuals = found.map_err(|failure| mistake::whole(&last.check.data.file, &failure))?;
+            numbers.residuals = found.about(&last.check.data.file)?;
         }
         notes.progress(checks.list.len(), checks.list.len());
         if !fixed_station {
@@ -186,13 +184,8 @@ impl CheckValues {
     }
 
     /// Removes the component that an unknown station can explain.
-    pub(super) fn without_station(&self, mut numbers: Vec<f64>) -> Vec<f64> {
-        // A second pass reduces the rounding error.
-        for direction in self.station.iter().chain(&self.station) {
-            let along = product(direction, &numbers);
-            numbers.iter_mut().zip(direction).for_each(|(number, unit)| *number -= along * unit);
-        }
-        numbers
+    pub(super) fn without_station(&self, numbers: Vec<f64>) -> Vec<f64> {
+        beside(&self.station, numbers)
     }
 
     /// Returns the number of independent values per check once the station is known.
@@ -202,7 +195,7 @@ impl CheckValues {
 }
 
 /// Returns an error if a check has several stations and their poses are unknown.
-fn one_station(check: &Check, map: &Map) -> Result<(), Diagnostics> {
+fn one_station(check: &Check, map: &Map) -> Result<()> {
     let rows = &check.data.observations;
     let first = rows.first().map(|row| row.station);
     if map.base == Base::Exact || rows.iter().all(|row| Some(row.station) == first) {
@@ -233,17 +226,23 @@ fn nothing_in_common(checks: &Checks, visits: &[Visits], count: usize) -> Diagno
     mistake::with_help(&check.data.file, message, help)
 }
 
+/// Removes the component along the directions of an orthonormal basis.
+fn beside(basis: &[Vec<f64>], mut numbers: Vec<f64>) -> Vec<f64> {
+    // A second pass reduces the rounding error.
+    for direction in basis.iter().chain(basis) {
+        let along = product(direction, &numbers);
+        numbers.iter_mut().zip(direction).for_each(|(number, unit)| *number -= along * unit);
+    }
+    numbers
+}
+
 /// Orthonormalizes the columns by Gram-Schmidt; dependent columns are left out.
 fn orthonormal(columns: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns {
-        let length = product(&column, &column).sqrt();
-        let mut rest = column;
-        for direction in basis.iter().chain(&basis) {
-            let along = product(direction, &rest);
-            rest.iter_mut().zip(direction).for_each(|(value, unit)| *value -= along * unit);
-        }
-        let new = product(&rest, &rest).sqrt();
+        let length = norm(&column);
+        let rest = beside(&basis, column);
+        let new = norm(&rest);
         if new > 1e-9 * length {
             basis.push(rest.into_iter().map(|value| value / new).collect());
         }

@@ -5,11 +5,10 @@ use std::mem::take;
 
 use abbe::identify::Observation;
 use abbe_interpreter::Interpreter;
-use abbe_spec::Diagnostics;
 
 use crate::data::{Data, Dated, Map, Source};
 use abbe_study::date::{Calendar, in_name, parse_date};
-use abbe_study::mistake;
+use abbe_study::{Result, mistake};
 
 /// Measurement of the machine at one date.
 #[derive(Clone, Debug)]
@@ -38,10 +37,7 @@ impl Checks {
     ///
     /// The dates come from the map's `[time]`, or else from the file names. Without either, the
     /// checks are numbered.
-    pub fn read<'a>(
-        sources: impl IntoIterator<Item = impl Into<Source<'a>>>,
-        map: &Map,
-    ) -> Result<Self, Diagnostics> {
+    pub fn read<'a>(sources: impl IntoIterator<Item = impl Into<Source<'a>>>, map: &Map) -> Result<Self> {
         let mut checks: Vec<(Calendar, Check)> = Vec::new();
         let sources: Vec<Source<'_>> = sources.into_iter().map(Into::into).collect();
         let names: Vec<Option<f64>> =
@@ -84,7 +80,7 @@ impl Checks {
     }
 
     /// Returns the checks with the inputs derived from their rows.
-    pub(super) fn completed(&self, map: &Map, machine: &Interpreter) -> Result<Cow<'_, Self>, Diagnostics> {
+    pub(super) fn completed(&self, map: &Map, machine: &Interpreter) -> Result<Cow<'_, Self>> {
         let spec = machine.spec();
         if !map.follows_from_rows() && spec.loops.is_empty() {
             return Ok(Cow::Borrowed(self));
@@ -93,13 +89,13 @@ impl Checks {
             let data = Data::closed(check.data.completed(map, machine, spec), machine)?;
             Ok(Check { data: data.into_owned(), time: check.time })
         };
-        let list = self.list.iter().map(one).collect::<Result<_, Diagnostics>>()?;
+        let list = self.list.iter().map(one).collect::<Result<_>>()?;
         Ok(Cow::Owned(Self { calendar: self.calendar, list, since: self.since.clone() }))
     }
 
     /// Removes the checks before a date. `option` is the name of the command-line option for error
     /// messages.
-    pub fn since(&mut self, option: &str, date: &str) -> Result<(), Diagnostics> {
+    pub fn since(&mut self, option: &str, date: &str) -> Result<()> {
         let wrong = |message: String, help: &str| mistake::with_help(option, message, help);
         let (calendar, since) = match (parse_date(date), self.calendar) {
             (Some((Calendar::Days, number)), Calendar::Checks) => (Calendar::Checks, number),

@@ -4,10 +4,9 @@
 
 use std::collections::HashMap;
 
+use abbe::Pose;
 use abbe::identify::{Measurement, Observation};
-use abbe::{Pose, VariableKind};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::mistake;
+use abbe_study::{Result, mistake};
 
 use super::checks::Check;
 use crate::identify::Setup;
@@ -35,9 +34,8 @@ pub(super) struct Configurations {
 
 impl Configurations {
     pub(super) fn new(setup: &Setup) -> Self {
-        let unit = |kind: VariableKind| if kind == VariableKind::Revolute { 1.0 } else { setup.arm };
-        let units = setup.description.variables.iter().map(|variable| unit(variable.kind)).collect();
-        Self { list: Vec::new(), units, bins: HashMap::new() }
+        let units = setup.description.variables.iter().map(|variable| variable.kind.either(1.0, setup.arm));
+        Self { list: Vec::new(), units: units.collect(), bins: HashMap::new() }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -80,11 +78,7 @@ pub(super) struct Visits<'c> {
 
 impl<'c> Visits<'c> {
     /// Assigns rows to configurations; new ones are appended. Rows with hidden targets are skipped.
-    pub(super) fn new(
-        check: &'c Check,
-        setup: &Setup,
-        known: &mut Configurations,
-    ) -> Result<Self, Diagnostics> {
+    pub(super) fn new(check: &'c Check, setup: &Setup, known: &mut Configurations) -> Result<Self> {
         let configuration = |row: &Observation| match &row.measured {
             Measurement::Points(points) if !points.iter().all(Option::is_some) => Ok(None),
             Measurement::Readings(readings) if readings.iter().any(Option::is_none) => Ok(None),

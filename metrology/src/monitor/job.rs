@@ -3,17 +3,15 @@
 //! Report of monitoring.
 
 use abbe_interpreter::Interpreter;
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::date::Calendar;
-use abbe_study::{Machine, Notes, Residuals, RunRecord, finite, number};
+use abbe_study::{Machine, Notes, Residuals, Result, RunRecord, finite, number};
 use serde::Serialize;
 
 use super::charts::{Chart, Limit, charts};
 use super::check_values::CheckValues;
-use super::checks::Checks;
 use super::finding::{Finding, finding};
-use super::options::Settings;
 use super::single_errors::SingleErrors;
+use super::{Checks, Settings};
 use crate::data::{Map, Summary};
 
 /// Monitoring of a machine by repeated checks.
@@ -42,7 +40,7 @@ impl Monitor {
     }
 
     /// Evaluates all checks in chronological order.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Self { machine, map, checks, settings } = self;
         let spec = &machine.spec;
         let interpreter = Interpreter::new(spec.clone());

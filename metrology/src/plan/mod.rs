@@ -23,7 +23,7 @@ use crate::identify::{
     readable_configurations, redundant, scale_note,
 };
 use abbe_study::workspace::has_range;
-use abbe_study::{Machine, Notes, Study, finite, mistake};
+use abbe_study::{About, Machine, Notes, Result, Study, finite, mistake};
 
 pub use keys::{TABLES, rules};
 pub use report::{Input, Predicted, Report, UndeterminedError};
@@ -100,7 +100,7 @@ struct Chosen {
 
 impl Plan {
     /// Selects the configurations and predicts the uncertainty after the measurement.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Self { machine, map, .. } = self;
         map.require_uncertainty("a plan")?;
         map.require_joints("a plan")?;
@@ -110,11 +110,10 @@ impl Plan {
         let setup = Setup::at_home(&interpreter, map)?;
         let magnitudes = (machine.spec.sources.len()..).take(own.len()).map(Unknown::Magnitude);
         let model = setup.ideal.with(magnitudes.chain(setup.unknowns(false)).collect());
-        let fail = |failure: Failure| mistake::whole(&machine.origin, &failure);
-        let mut sizes = model.priors(Prior::DEFAULT_SHARE).map_err(fail)?;
+        let mut sizes = model.priors(Prior::DEFAULT_SHARE).about(&machine.origin)?;
         sizes.iter_mut().zip(&own).for_each(|(size, own)| *size = own.declared.standard_deviation);
         let used = self.configurations_of_use(&interpreter)?;
-        let tool_points = model.tool_points(&used).map_err(fail)?;
+        let tool_points = model.tool_points(&used).about(&machine.origin)?;
         // Per coordinate.
         let model_error = self.model_error / 3.0_f64.sqrt();
         let objective = Objective { criterion: Criterion::Variance, used: &tool_points, model_error };
@@ -132,8 +131,9 @@ impl Plan {
         let (observed, own_design) = match &self.choice {
             Choice::Sets(_) => (identifiable.clone(), Some(design.clone())),
             Choice::Optimal { .. } | Choice::Among { .. } => {
-                let observed = identifiable_from(&model, &rows, &sizes).map_err(fail)?;
-                let own_design = whole(&model, &rows, &observed, &objective, &mut |_, _| {}).map_err(fail)?;
+                let observed = identifiable_from(&model, &rows, &sizes).about(&machine.origin)?;
+                let own_design =
+                    whole(&model, &rows, &observed, &objective, &mut |_, _| {}).about(&machine.origin)?;
                 (observed, own_design)
             }
         };
@@ -153,12 +153,12 @@ impl Plan {
             .map(|(k, moves)| UndeterminedError::new(&model, k, moves))
             .collect();
         let moved = setup.moved(&rows);
-        if let Some(note) = scale_note(&setup.ideal, &rows, &moved).map_err(fail)? {
+        if let Some(note) = scale_note(&setup.ideal, &rows, &moved).about(&machine.origin)? {
             notes.note(&note);
         }
         let groups =
             rows.first().map_or(Ok(Vec::new()), |row| indistinguishable(&model, &row.q, &moved, setup.pose));
-        let groups = groups.map_err(|error| mistake::whole(&machine.origin, &error))?;
+        let groups = groups.about(&machine.origin)?;
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
@@ -187,10 +187,9 @@ impl Plan {
         finite(&machine.origin, report)
     }
 
-    fn readable(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>, Diagnostics> {
+    fn readable(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>> {
         let most = list.len();
-        let readable = readable_configurations(setup, &self.map, list, most);
-        let readable = readable.map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
+        let readable = readable_configurations(setup, &self.map, list, most).about(&self.machine.origin)?;
         if readable.is_empty() { Err(nothing_readable(&self.map)) } else { Ok(readable) }
     }
 
@@ -201,8 +200,7 @@ impl Plan {
         (model, sizes): (&Model, &[Option<f64>]),
         objective: Objective<'_>,
         notes: &mut dyn Notes,
-    ) -> Result<Chosen, Diagnostics> {
-        let fail = |failure: Failure| mistake::whole(&self.machine.origin, &failure);
+    ) -> Result<Chosen> {
         let of_sets = |sets: &Sets, notes: &mut dyn Notes| {
             let (configurations, counts) = sets.rows(manipulator, notes)?;
             let rows = (1..).zip(configurations).map(|(line, configuration): (u64, Configuration)| {
@@ -225,10 +223,11 @@ impl Plan {
             Choice::Sets(sets) => {
                 let (rows, counts) = of_sets(sets, notes)?;
                 let rows = self.map.in_sequence(rows);
-                let rows = with_nominal_measurements(model, rows.into_iter()).map_err(fail)?;
-                let identifiable = identifiable_from(model, &rows, sizes).map_err(fail)?;
+                let rows = with_nominal_measurements(model, rows.into_iter()).about(&self.machine.origin)?;
+                let identifiable = identifiable_from(model, &rows, sizes).about(&self.machine.origin)?;
                 let progress = &mut |done, total| notes.progress(done, total);
-                let design = whole(model, &rows, &identifiable, &objective, progress).map_err(fail)?;
+                let design =
+                    whole(model, &rows, &identifiable, &objective, progress).about(&self.machine.origin)?;
                 Ok(Chosen { title: sets.title.clone(), sets: counts, rows, identifiable, design })
             }
             Choice::Optimal { criterion, count, .. } | Choice::Among { criterion, count, .. } => {
@@ -254,12 +253,12 @@ impl Plan {
                     );
                     return Err(mistake::with_help(&self.machine.origin, message, help));
                 }
-                let list = with_nominal_measurements(model, list.into_iter()).map_err(fail)?;
-                let identifiable = identifiable_from(model, &list, sizes).map_err(fail)?;
+                let list = with_nominal_measurements(model, list.into_iter()).about(&self.machine.origin)?;
+                let identifiable = identifiable_from(model, &list, sizes).about(&self.machine.origin)?;
                 let objective = Objective { criterion: *criterion, ..objective };
                 let progress = &mut |done, total| notes.progress(done, total);
-                let design =
-                    optimal(model, &list, &identifiable, *count, &objective, progress).map_err(fail)?;
+                let design = optimal(model, &list, &identifiable, *count, &objective, progress)
+                    .about(&self.machine.origin)?;
                 let chosen = design.iter().flat_map(|design| &design.chosen);
                 let rows = chosen.map(|i| list[*i].clone()).collect();
                 let name = match criterion {
@@ -273,7 +272,7 @@ impl Plan {
     }
 
     /// Returns candidate samples within the limits of the joints and inputs that move.
-    fn samples(&self, manipulator: &Interpreter, candidates: usize) -> Result<Vec<Observation>, Diagnostics> {
+    fn samples(&self, manipulator: &Interpreter, candidates: usize) -> Result<Vec<Observation>> {
         let moved: Vec<usize> = self.map.moved().collect();
         let inputs = self.map.moved_inputs(&self.machine);
         let samples = match self.seed {
@@ -281,7 +280,7 @@ impl Plan {
             None => joint_samples(manipulator, &moved, candidates),
         };
         let samples = samples.and_then(|samples| samples.inputs(manipulator, &inputs));
-        let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, &error))?.reached();
+        let samples = samples.about(&self.machine.origin)?.reached();
         Ok((1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample)).collect())
     }
 
@@ -297,11 +296,10 @@ impl Plan {
     }
 
     /// Returns the configurations of the workspace of use, without measurements.
-    fn configurations_of_use(&self, manipulator: &dyn Manipulator) -> Result<Vec<Observation>, Diagnostics> {
-        let fail = |error: abbe::Error| mistake::whole(&self.machine.origin, &error);
+    fn configurations_of_use(&self, manipulator: &dyn Manipulator) -> Result<Vec<Observation>> {
         let mut region = self.study.region.clone();
         region.fix(self.machine.fixed_inputs());
-        let workspace = region.workspace(manipulator, self.seed).map_err(fail)?;
+        let workspace = region.workspace(manipulator, self.seed).about(&self.machine.origin)?;
         let step = workspace.len().div_ceil(USED).max(1);
         let configurations =
             (0..workspace.len()).step_by(step).filter_map(|i| workspace.configuration(i).ok());
@@ -309,7 +307,7 @@ impl Plan {
         let mut configurations: Vec<_> = configurations.collect();
         if configurations.is_empty() {
             let every: Vec<usize> = (0..manipulator.description().variables.len()).collect();
-            configurations = joint_samples(manipulator, &every, 100).map_err(fail)?.reached();
+            configurations = joint_samples(manipulator, &every, 100).about(&self.machine.origin)?.reached();
             configurations.retain(|Configuration { q, s, .. }| closes(manipulator, q, s));
         }
         let nothing = || Measurement::Points(Vec::new().into());

@@ -7,13 +7,12 @@ use std::path::{Path, PathBuf};
 
 use abbe::analysis::{Axis, Configuration, Workspace, joint_grid};
 use abbe::{Error, Manipulator};
-use abbe_spec::document::Section;
-use abbe_spec::{Diagnostic, Diagnostics, Spec};
+use abbe_spec::{Diagnostic, Section, Spec};
 use serde::Serialize;
 
 use super::keys;
 use abbe_study::workspace::{Candidates, Region, count, read_region};
-use abbe_study::{Notes, mistake, named};
+use abbe_study::{Notes, Result, mistake, named};
 
 /// Largest number of rows of a plan.
 const MOST_ROWS: usize = 1_000_000;
@@ -53,7 +52,7 @@ pub struct SetSize {
 
 impl Sets {
     /// Reads the plan in a file, or the shipped one with that name.
-    pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
+    pub fn find(argument: &Path, spec: &Spec) -> Result<Self> {
         let mut document =
             named::document(&SETS, argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
         document.length = spec.length;
@@ -65,7 +64,7 @@ impl Sets {
         &self,
         manipulator: &dyn Manipulator,
         notes: &mut dyn Notes,
-    ) -> Result<(Vec<Configuration>, Vec<SetSize>), Diagnostics> {
+    ) -> Result<(Vec<Configuration>, Vec<SetSize>)> {
         // All combinations of the plan's inputs, each a list of indices and values.
         let mut combinations: Vec<Vec<(usize, f64)>> = vec![Vec::new()];
         let sizes = self.inputs.iter().map(|axis| axis.values.len());
@@ -99,7 +98,7 @@ impl Sets {
                 Content::Axes(axes) => {
                     let grids = axes.iter().map(|axis| joint_grid(manipulator, std::slice::from_ref(axis)));
                     let grids = grids.map(|grid| Ok(Box::new(grid.map_err(refused(set))?) as _));
-                    grids.collect::<Result<_, Diagnostics>>()?
+                    grids.collect::<Result<_>>()?
                 }
             };
             let all: usize = workspaces.iter().map(|workspace| workspace.len()).sum();
@@ -132,10 +131,7 @@ fn read(root: &Section<'_>, spec: &Spec) -> Option<Sets> {
     root.check_keys(&[&keys::FILE]);
     let head = root.required("plan")?.table("[plan]", &[&keys::PLAN])?;
     let repeat = head.get("repeat").map_or(Some(1), |item| count(&item, keys::MOST_REPEATS as usize));
-    let inputs = match root.get("inputs") {
-        Some(item) => Candidates::inputs(spec).axes(&item),
-        None => Vec::new(),
-    };
+    let inputs = root.get("inputs").map_or_else(Vec::new, |item| Candidates::inputs(spec).axes(&item));
     let items = root.required_list("set").and_then(|item| item.array("an array of tables [[set]]"))?;
     if items.is_empty() {
         let item = root.get("set").map_or(0..0, |item| item.span());

@@ -8,15 +8,12 @@ use abbe_spec::option::{NamedOption, READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use std::path::Path;
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::parse_value;
 use serde::Serialize;
 
 use crate::data::{Runs, Source, Table, TargetRuns, runs};
-use abbe_study::notes::Notes;
-use abbe_study::{finite, mistake};
+use abbe_study::options::quantity;
+use abbe_study::{Notes, Result, finite, mistake};
 
 pub use evaluation::{
     ApproachResult, Bidirectional, Characteristic, Evaluation, InstrumentUncertainty, PositionResult,
@@ -79,7 +76,7 @@ pub struct DiagonalResult {
 
 impl Positioning<'_> {
     /// Reads and evaluates the runs.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Runs { is_rotary, lines } = runs(self.data)?;
         let instrument = self.instrument(is_rotary)?;
         let counts = lines.iter().flat_map(|(_, targets)| targets).flat_map(|target| &target.deviations);
@@ -118,16 +115,14 @@ impl Positioning<'_> {
     }
 
     /// Reads the uncertainties of the instrument, in um or arcsec and in these by mm or deg.
-    fn instrument(&self, is_rotary: bool) -> Result<Option<InstrumentUncertainty>, Diagnostics> {
+    fn instrument(&self, is_rotary: bool) -> Result<Option<InstrumentUncertainty>> {
         if self.reading.is_none() && self.scale.is_none() {
             return Ok(None);
         }
         let value = |option: &NamedOption, text: &Option<String>, dimension: Dimension| {
             let Some(text) = text else { return Ok(0.0) };
-            let document = Document::new(option, text.as_str());
             let name = format!("`{option}`");
-            let value = parse_value(&document, 0..text.len(), LengthUnit::Millimetre, dimension, &name);
-            let value = document.finish(value)?;
+            let value = quantity(option, text, LengthUnit::Millimetre, dimension, &name)?;
             if value < 0.0 {
                 let help = "give a standard uncertainty: 0 or more";
                 return Err(mistake::with_help(option, format!("{name} is negative"), help));

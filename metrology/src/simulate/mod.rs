@@ -16,7 +16,7 @@ use crate::data::{Channel, Data, Heading, Instruments, Map, Table};
 use crate::identify::{Setup, nothing_readable, readable_configurations};
 use abbe_study::number::quantity;
 use abbe_study::workspace::has_range;
-use abbe_study::{Machine, Notes, finite, mistake};
+use abbe_study::{About, Machine, Notes, Result, finite, mistake};
 
 /// Number of random configurations tried for each one at which instruments can be read.
 const TRIES: usize = 20;
@@ -77,7 +77,7 @@ const PROGRESS_STEP: usize = 1000;
 
 impl Simulate {
     /// Simulates all rows.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Heading { names: heading, .. } = self.heading();
         let mut table = Table { heading, ..Table::default() };
         let mut observations = Vec::new();
@@ -181,7 +181,7 @@ impl Simulate {
     }
 
     /// Returns the configurations; random ones are generated on demand where each becomes a row.
-    fn planned<'s>(&'s self, interpreter: &Interpreter, setup: &Setup) -> Result<Planned<'s>, Diagnostics> {
+    fn planned<'s>(&'s self, interpreter: &Interpreter, setup: &Setup) -> Result<Planned<'s>> {
         let Self { machine, map, .. } = self;
         let list = match &self.at {
             Places::Rows(data) => Cow::Borrowed(data),
@@ -213,12 +213,12 @@ impl Simulate {
         }))
     }
 
-    fn samples(&self, manipulator: &dyn Manipulator, count: usize) -> Result<JointSamples, Diagnostics> {
+    fn samples(&self, manipulator: &dyn Manipulator, count: usize) -> Result<JointSamples> {
         let moved: Vec<usize> = self.map.moved().collect();
         let inputs = self.map.moved_inputs(&self.machine);
         random_joint_samples(manipulator, &moved, count, self.seed)
             .and_then(|samples| samples.inputs(manipulator, &inputs))
-            .map_err(|error| mistake::whole(&self.machine.origin, &error))
+            .about(&self.machine.origin)
     }
 
     /// Notes the inputs that would be drawn within their ranges if the map had a column for them.
@@ -243,7 +243,7 @@ impl Simulate {
     }
 
     /// Finds configurations at which the instruments can be read, up to `count`.
-    fn sampled(&self, setup: &Setup, count: usize) -> Result<Data, Diagnostics> {
+    fn sampled(&self, setup: &Setup, count: usize) -> Result<Data> {
         let manipulator = setup.ideal.manipulator;
         let tries = match self.map.instruments() {
             Some(all) if all.camera.is_some() => TRIES_OF_VIEW * count,
@@ -254,8 +254,8 @@ impl Simulate {
         let stations = self.map.station_names();
         let tried = Planned::Sampled { samples: self.samples(manipulator, tries)?, stations: stations.len() };
         let rows = (0..tried.len()).map(|i| tried.row(i, &self.map).into_owned());
-        let observations = readable_configurations(setup, &self.map, rows.collect(), count)
-            .map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
+        let observations =
+            readable_configurations(setup, &self.map, rows.collect(), count).about(&self.machine.origin)?;
         if observations.is_empty() {
             return Err(nothing_readable(&self.map));
         }

@@ -1,7 +1,6 @@
 //! Plain signs for terminals without UTF-8.
 
-use super::section::Block;
-use super::{Document, Table};
+use super::{Block, Document, Table};
 
 /// Signs, and what stands for them in ASCII.
 const SIGNS: [(char, &str); 40] = [

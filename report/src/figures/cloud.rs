@@ -52,11 +52,7 @@ pub(super) fn scene(points: &Points, figure: &NamedFigure, report: &Report) -> S
 /// Names the circle around all errors, including the random errors.
 fn around(radius: f64, errors: &Quantity, figure: &NamedFigure, report: &Report) -> String {
     let unit = &errors.unit;
-    let added = figure.request.source.is_none() && !figure.bounds;
-    let mut name = format!("radius {} {unit}", trimmed(radius, 3));
-    if added {
-        name += ", including random errors";
-    }
+    let mut name = format!("radius {} {unit}{}", trimmed(radius, 3), figure.remark());
     if let Some(published) = figure.published_total(report) {
         name += &format!(" ({}: {} {unit})", report.publisher(), short(errors.show(published)));
     }

@@ -8,10 +8,10 @@ use std::path::Path;
 
 use abbe::analysis::sampling;
 use abbe_metrology::data::{Map, Source};
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 use abbe_study::explore::{self, Explore};
 use abbe_study::number::{error_unit, fixed};
-use abbe_study::{Machine, Notes, Residuals, RunRecord, version};
+use abbe_study::{Machine, Notes, Residuals, Result, RunRecord, version};
 
 use super::document::cards;
 use super::table::{facts, ledger, row_header};
@@ -36,7 +36,7 @@ impl Document {
         files: impl IntoIterator<Item = (&'static str, impl Into<Source<'f>>)>,
         residuals: Option<Residuals>,
         notes: &mut dyn Notes,
-    ) -> Result<String, Diagnostics> {
+    ) -> Result<String> {
         let provenance = Provenance::new(&machine.spec, map, files)?;
         let rows = residuals.as_ref().map(|residuals| {
             Section::full("Row by row").table(row_by_row(residuals, machine.spec.length.symbol()))
@@ -194,7 +194,7 @@ impl Provenance {
         spec: &Spec,
         map: Option<&Map>,
         files: impl IntoIterator<Item = (&'static str, impl Into<Source<'f>>)>,
-    ) -> Result<Self, Diagnostics> {
+    ) -> Result<Self> {
         let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let mut all = vec![("spec", spec.file.clone(), spec.hash.clone())];
         all.extend(map.map(|map| ("map", name(Path::new(map.path())), map.hash())));

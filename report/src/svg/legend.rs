@@ -1,7 +1,6 @@
 //! Legend below a figure.
 
-use super::canvas::{Anchor, Area, Canvas, Font, WIDTH};
-use super::shapes;
+use super::{Anchor, Area, Canvas, Font, WIDTH, shapes};
 use crate::scene::{Mark, Panel, Shape, View};
 
 /// Height of a row.

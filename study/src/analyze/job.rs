@@ -4,16 +4,11 @@ use abbe_spec::option::{DISABLE, ENABLE, Q, SCALE, SET};
 use std::ops::Range;
 
 use abbe::analysis::{BudgetOptions, BudgetSweep, Row};
-use abbe_spec::Diagnostics;
 
 use super::parts::shard::Shard;
 use super::report::Report;
 use super::sweep::{AnalysisSweep, PartialAnalysis};
-use crate::changes::Changes;
-use crate::machine::Machine;
-use crate::notes::Notes;
-use crate::study_file::Study;
-use crate::{mistake, number};
+use crate::{About, Changes, Machine, Notes, Result, Study, mistake, number};
 
 /// Job of `abbe analyze`: evaluates each error source over the workspace of a study.
 #[derive(Clone)]
@@ -94,17 +89,13 @@ impl Analyze {
     }
 
     /// Sweeps the workspace and returns the report.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         self.run_with_rows(None, notes)
     }
 
     /// Like [`run`](Self::run), and passes each reached configuration to `rows`, in workspace
     /// order.
-    pub fn run_with_rows(
-        &self,
-        rows: Option<&mut dyn FnMut(&Row)>,
-        notes: &mut dyn Notes,
-    ) -> Result<Report, Diagnostics> {
+    pub fn run_with_rows(&self, rows: Option<&mut dyn FnMut(&Row)>, notes: &mut dyn Notes) -> Result<Report> {
         self.with_sweep(notes, |sweep, notes| {
             let all = sweep.run(0..sweep.budget.chunks(), rows, notes)?;
             sweep.report(all, notes)
@@ -117,7 +108,7 @@ impl Analyze {
         &self,
         chunks: impl FnOnce(usize) -> Range<usize>,
         notes: &mut dyn Notes,
-    ) -> Result<PartialAnalysis, Diagnostics> {
+    ) -> Result<PartialAnalysis> {
         self.with_sweep(notes, |sweep, notes| sweep.run(chunks(sweep.budget.chunks()), None, notes))
     }
 
@@ -126,7 +117,7 @@ impl Analyze {
         &self,
         parts: Vec<(String, Shard, PartialAnalysis)>,
         notes: &mut dyn Notes,
-    ) -> Result<Report, Diagnostics> {
+    ) -> Result<Report> {
         self.with_sweep(notes, |sweep, notes| {
             let mut all: Option<PartialAnalysis> = None;
             for (name, shard, part) in parts {
@@ -153,13 +144,12 @@ impl Analyze {
     fn with_sweep<T>(
         &self,
         notes: &mut dyn Notes,
-        work: impl FnOnce(&AnalysisSweep<'_>, &mut dyn Notes) -> Result<T, Diagnostics>,
-    ) -> Result<T, Diagnostics> {
+        work: impl FnOnce(&AnalysisSweep<'_>, &mut dyn Notes) -> Result<T>,
+    ) -> Result<T> {
         let Self { machine, study, monte_carlo, seed, figures, .. } = self;
         let manipulator = &*machine.evaluator(!self.interpret);
         let description = manipulator.description();
-        let workspace = study.region.workspace(manipulator, *seed);
-        let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
+        let workspace = &*study.region.workspace(manipulator, *seed).about(&machine.origin)?;
         notes.progress(0, workspace.len());
         let tolerances = study.tolerances();
         let options = BudgetOptions { tolerances };

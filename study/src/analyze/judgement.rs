@@ -4,7 +4,6 @@
 use abbe::analysis::{
     Budget, Correction, ErrorDistribution, Machines, Measurand, Residual, Subset, Yield, errors_at, sweep,
 };
-use abbe_spec::Diagnostics;
 
 use super::compensated::{CHECKED, CompensatedErrors};
 use super::report::{
@@ -12,6 +11,7 @@ use super::report::{
     ToleranceVerdict, Verdict, Verdicts,
 };
 use super::sweep::AnalysisSweep;
+use crate::Result;
 use crate::factors::{self, Factors};
 use crate::study_file::{Criterion, JudgedMachine};
 
@@ -36,7 +36,7 @@ impl AnalysisSweep<'_> {
 
     /// Evaluates the compensated machine over the workspace, if the study has a tolerance or states
     /// what compensation leaves.
-    pub(super) fn compensated(&self) -> Result<Option<(CompensationBasis, CompensatedErrors)>, Diagnostics> {
+    pub(super) fn compensated(&self) -> Result<Option<(CompensationBasis, CompensatedErrors)>> {
         let tolerances = self.study.tolerances();
         let Some((basis, residuals, together)) = self.correction() else { return Ok(None) };
         if tolerances == [None; 2] && basis != CompensationBasis::Stated {
@@ -67,14 +67,14 @@ impl AnalysisSweep<'_> {
         index: Option<usize>,
         measurand: Measurand,
         correction: Option<Correction<'_>>,
-    ) -> Result<ErrorDistribution, Diagnostics> {
+    ) -> Result<ErrorDistribution> {
         let errors = self.at(index, |configuration| errors_at(self.manipulator, configuration))?;
         Ok(errors.distribution(measurand, correction))
     }
 
     /// Returns the share of machines that keep all tolerances, if that is the criterion, at no more
     /// configurations than those of [`CompensatedErrors`].
-    fn yielded(&self, correction: Option<Correction<'_>>) -> Result<Option<Yield>, Diagnostics> {
+    fn yielded(&self, correction: Option<Correction<'_>>) -> Result<Option<Yield>> {
         let limits = self.study.tolerances();
         if self.study.criterion != Criterion::Yield || limits == [None; 2] {
             return Ok(None);
@@ -97,11 +97,7 @@ impl AnalysisSweep<'_> {
 
     /// Returns the shares of the sources in the judged errors of position and orientation, where
     /// they were judged; where the error is largest without a tolerance.
-    pub(super) fn shares(
-        &self,
-        budget: &Budget,
-        verdicts: Option<&Verdicts>,
-    ) -> Result<[JudgedShares; 2], Diagnostics> {
+    pub(super) fn shares(&self, budget: &Budget, verdicts: Option<&Verdicts>) -> Result<[JudgedShares; 2]> {
         let by_worst_case = self.study.criterion == Criterion::WorstCase;
         let correction = self
             .correction()
@@ -130,7 +126,7 @@ impl AnalysisSweep<'_> {
         budget: &Budget,
         sites: &ErrorSites,
         compensated: Option<(CompensationBasis, CompensatedErrors)>,
-    ) -> Result<Option<Verdicts>, Diagnostics> {
+    ) -> Result<Option<Verdicts>> {
         let as_built = self.machine_verdicts(sites, None, &|measurand, tolerance| {
             let distribution = |index| self.distribution(index, measurand, None);
             JudgedErrors::as_built(budget, measurand, tolerance, distribution)
@@ -150,7 +146,7 @@ impl AnalysisSweep<'_> {
                         worst_case: extremes.worst_case,
                         // Certain only if no configuration was left out.
                         is_bounded: extremes.is_bounded && is_all,
-                        candidates: candidates.collect::<Result<_, Diagnostics>>()?,
+                        candidates: candidates.collect::<Result<_>>()?,
                     })
                 })?;
                 Some(CompensatedVerdicts { basis, checked: swept.checked, verdicts })
@@ -166,8 +162,8 @@ impl AnalysisSweep<'_> {
         &self,
         sites: &ErrorSites,
         correction: Option<Correction<'_>>,
-        errors: &dyn Fn(Measurand, f64) -> Result<JudgedErrors, Diagnostics>,
-    ) -> Result<MachineVerdicts, Diagnostics> {
+        errors: &dyn Fn(Measurand, f64) -> Result<JudgedErrors>,
+    ) -> Result<MachineVerdicts> {
         let yielded = self.yielded(correction)?;
         let judge = |measurand: Measurand| {
             let verdict = self.study.tolerances()[measurand as usize].map(|tolerance| {

@@ -12,22 +12,16 @@ use serde::{Deserialize, Serialize};
 
 use super::errors_with_parts::LargestWithParts;
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
-use super::first_order::FirstOrder;
 use super::report::{
     AfterCompensation, CombinedReport, Comparison, CompensationBasis, ErrorSites, Ledger, MonteCarloErrors,
     MonteCarloReport, OrientationReport, RemainingErrors, Report, SEED, SourceReport, UncertaintyBudget,
 };
-use super::unreachable;
-use super::unreachable::LoopCondition;
+use super::{FirstOrder, LoopCondition, unreachable};
 use crate::bound::CertifiedNorms;
 use crate::calibration::named_as_one;
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
-use crate::finite::finite;
-use crate::machine::Machine;
-use crate::notes::Notes;
-use crate::study_file::Study;
 use crate::workspace::Form;
-use crate::{RunRecord, mistake, number};
+use crate::{Machine, Notes, Result, RunRecord, Study, finite, mistake, number};
 
 /// Largest number of configurations that are checked for extrapolation.
 const EXTRAPOLATED: usize = 2000;
@@ -65,7 +59,7 @@ impl AnalysisSweep<'_> {
         chunks: Range<usize>,
         rows: Option<&mut dyn FnMut(&Row)>,
         notes: &mut dyn Notes,
-    ) -> Result<PartialAnalysis, Diagnostics> {
+    ) -> Result<PartialAnalysis> {
         let range = self.budget.configurations(&chunks);
         let builder = self.figures.then(|| FiguresBuilder::new(self.study, self.manipulator.description()));
         notes.progress(0, range.len());
@@ -108,7 +102,7 @@ impl AnalysisSweep<'_> {
     }
 
     /// Returns the report on all gathered data.
-    pub(super) fn report(&self, data: PartialAnalysis, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub(super) fn report(&self, data: PartialAnalysis, notes: &mut dyn Notes) -> Result<Report> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
         let spec = &named_as_one(&machine.spec);
         let mut budget = self.budget.finish(data.budget);
@@ -191,7 +185,7 @@ impl AnalysisSweep<'_> {
         budget: &Budget,
         sites: &ErrorSites,
         (spec, measurand): (&Spec, Measurand),
-    ) -> Result<Option<UncertaintyBudget>, Diagnostics> {
+    ) -> Result<Option<UncertaintyBudget>> {
         let largest = budget.errors(measurand).1.standard_radius;
         if largest.value == 0.0 {
             return Ok(None);
@@ -209,7 +203,7 @@ impl AnalysisSweep<'_> {
         budget: &Budget,
         sites: &ErrorSites,
         notes: &mut dyn Notes,
-    ) -> Result<Option<MonteCarloReport>, Diagnostics> {
+    ) -> Result<Option<MonteCarloReport>> {
         let Some(draws) = self.monte_carlo else { return Ok(None) };
         let draw = |index| {
             let errors = self
@@ -225,7 +219,7 @@ impl AnalysisSweep<'_> {
         Ok(Some(MonteCarloReport { draws, seed: self.seed, worst, home }))
     }
 
-    fn finish_figures(&self, data: Vec<PartialFigure>) -> Result<Figures, Diagnostics> {
+    fn finish_figures(&self, data: Vec<PartialFigure>) -> Result<Figures> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
         let mut builder = FiguresBuilder::new(study, manipulator.description());
         if !builder.append(data) {
@@ -240,13 +234,13 @@ impl AnalysisSweep<'_> {
         &self,
         index: Option<usize>,
         evaluate: impl FnOnce(&Configuration) -> Result<T, abbe::Error>,
-    ) -> Result<T, Diagnostics> {
+    ) -> Result<T> {
         let configuration = index.and_then(|index| self.workspace.configuration(index).ok());
         evaluate(configuration.as_ref().unwrap_or_else(|| self.workspace.home()))
             .map_err(|error| self.not_evaluated(&Unevaluated { configuration: index, error }))
     }
 
-    fn require_reached(&self, budget: &Budget) -> Result<(), Diagnostics> {
+    fn require_reached(&self, budget: &Budget) -> Result<()> {
         if budget.configurations > 0 {
             return Ok(());
         }
@@ -265,7 +259,7 @@ impl AnalysisSweep<'_> {
     }
 
     /// Fails if the study limits an orientation error that exists at no configuration.
-    fn require_oriented(&self, budget: &Budget) -> Result<(), Diagnostics> {
+    fn require_oriented(&self, budget: &Budget) -> Result<()> {
         if budget.orientation.configurations > 0 || self.study.orientation_tolerance.is_none() {
             return Ok(());
         }

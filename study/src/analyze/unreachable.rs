@@ -7,10 +7,9 @@ use abbe::analysis::{Configuration, ReachError, Unreachable, UnreachableSummary,
 use abbe_spec::Spec;
 use serde::Serialize;
 
-use crate::closing::Closing;
 use crate::dead_point::DeadPoint;
-use crate::number;
 use crate::open_loops::open_loops;
+use crate::{Closing, number};
 
 /// Reason why configurations are unreachable, with its count.
 #[derive(Clone, Debug, Serialize)]

@@ -7,15 +7,12 @@ use abbe::analysis::{BudgetOptions, Configuration, Measurand, error_budget};
 use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress, Watch};
 use abbe_codegen::chain::{DIRECTION, Implicit, Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
+use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Diagnostics, Spec};
 use indexmap::IndexMap;
 
-use crate::machine::Machine;
-use crate::mistake;
-use crate::number;
-use crate::study_file::Study;
 use crate::workspace::Span;
+use crate::{Machine, Result, Study, mistake, number};
 
 /// Largest number of names that may move. The search for the worst case moves two more.
 const MOST_NAMES: usize = MOST_MOVING - DIRECTION.len();
@@ -36,7 +33,7 @@ pub(super) struct Domain {
 impl Domain {
     /// Creates the box of a machine and a study; changes are already applied. Fails if the loops
     /// are open at home, a span is unlimited or too many names move.
-    pub(super) fn new(machine: &Machine, study: &Study) -> Result<Self, Diagnostics> {
+    pub(super) fn new(machine: &Machine, study: &Study) -> Result<Self> {
         let (spec, manipulator) = (machine.spec.clone(), machine.evaluator(true));
         let spans = study.region.spans(&spec, &*manipulator, &machine.origin)?;
         let mut passive = vec![0.0; spec.passive.len()];

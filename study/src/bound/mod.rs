@@ -17,13 +17,9 @@ use abbe::{Class, Orientation};
 use abbe_bound::{Bound as Proved, Effort, Progress, Watch};
 use abbe_codegen::chain::{Implicit, Magnitude, Magnitudes};
 use abbe_codegen::graph::Graph;
-use abbe_spec::Diagnostics;
 use serde::Serialize;
 
-use crate::changes::Changes;
-use crate::machine::Machine;
-use crate::notes::Notes;
-use crate::study_file::Study;
+use crate::{Changes, Machine, Notes, Result, Study};
 use domain::Domain;
 use report::Classes;
 
@@ -57,7 +53,7 @@ impl Bound {
 
     /// Refines boxes until each bound reaches the gap, or a limit on boxes or time. Returns the
     /// report.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Self { machine, study, .. } = self;
         if self.least {
             machine.require_chain(
@@ -154,7 +150,7 @@ impl Searches<'_> {
         at_most: [f64; 2],
         from: Option<&[f64]>,
         notes: &mut dyn Notes,
-    ) -> Result<ErrorBounds, Diagnostics> {
+    ) -> Result<ErrorBounds> {
         let effort = self.job.effort;
         // What loops determine is enclosed with a rest, even where it is zero.
         let share = if self.implicit.is_empty() { 0.0 } else { NOTHING * effort.gap };
@@ -198,7 +194,7 @@ impl Searches<'_> {
         start: Option<&[f64]>,
         effort: &Effort,
         notes: &mut dyn Notes,
-    ) -> Result<Proved, Diagnostics> {
+    ) -> Result<Proved> {
         let implicit = self.implicit;
         self.run(notes, |domain, watch| domain.largest(graph, magnitude, implicit, start, effort, watch))
     }
@@ -208,7 +204,7 @@ impl Searches<'_> {
         &mut self,
         notes: &mut dyn Notes,
         search: impl FnOnce(&Domain, &mut Watch<'_>) -> T,
-    ) -> Result<T, Diagnostics> {
+    ) -> Result<T> {
         let Self { job, domain, begun, done, .. } = *self;
         let found = search(domain, &mut |_| {
             notes.progress(done, SEARCHES);

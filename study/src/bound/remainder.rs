@@ -73,9 +73,7 @@ impl Domain {
         let effort = Effort { gap, boxes: requested.boxes.min(REMAINDER_EFFORT.boxes), ..REMAINDER_EFFORT };
         abbe_bound::largest(graph, magnitude, implicit, &moving, &|symbol| self.home(symbol), &effort, watch)
     }
-}
 
-impl Domain {
     /// Returns the dexterity of the tool point and of the tool; `None` for fewer than three joints.
     pub(super) fn dexterity(&self, effort: &Effort, watch: &mut Watch<'_>) -> Option<Dexterity> {
         let chain::Dexterity { graph, point, pose } = chain::Dexterity::new(&self.spec)?;

@@ -10,10 +10,8 @@ use abbe_spec::{Fitted, Spec};
 use indexmap::IndexMap;
 use serde::Serialize;
 
-use crate::notes::Notes;
-use crate::number;
-use crate::study_file::Study;
 use crate::workspace::Span;
+use crate::{Notes, Study, number};
 
 use super::domain::Domain;
 

@@ -9,11 +9,9 @@ use abbe::analysis::{
 };
 use abbe::{Error, Manipulator};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Diagnostics;
 use serde::Serialize;
 
-use crate::notes::Notes;
-use crate::number;
+use crate::{Notes, Result, number};
 
 /// Seed of the sampled configurations.
 const SEED: u64 = 1;
@@ -46,7 +44,7 @@ pub(super) struct Counted {
 }
 
 /// Counts the identifiable errors when all joints move.
-pub(super) fn count(manipulator: &Interpreter, notes: &mut dyn Notes) -> Result<Counted, Diagnostics> {
+pub(super) fn count(manipulator: &Interpreter, notes: &mut dyn Notes) -> Result<Counted> {
     let description = manipulator.description();
     let parts = Parts::new(&manipulator.spec().variables_of_transforms());
     let is_chain = manipulator.spec().is_serial();

@@ -7,10 +7,10 @@ use std::ops::ControlFlow;
 use abbe::analysis::in_order_until;
 use abbe::lanes::Batches;
 use abbe::laws::{self, Discrepancy, Failure};
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 use serde::Serialize;
 
-use crate::notes::Notes;
+use crate::{Notes, Result};
 
 /// Result of checking one law.
 #[derive(Clone, Debug, Serialize)]
@@ -40,11 +40,7 @@ pub(super) fn configurations(spec: &Spec) -> usize {
 
 /// Checks all laws of a manipulator at this many configurations, side by side. Fails only if
 /// interrupted.
-pub fn laws(
-    manipulator: &dyn Batches,
-    configurations: usize,
-    notes: &mut dyn Notes,
-) -> Result<Vec<Law>, Diagnostics> {
+pub fn laws(manipulator: &dyn Batches, configurations: usize, notes: &mut dyn Notes) -> Result<Vec<Law>> {
     type Compare = fn(&dyn Batches, usize) -> Result<Discrepancy, Failure>;
     let compared: [(&'static str, Compare, f64); 6] = [
         (

@@ -18,13 +18,10 @@ mod unused;
 use std::sync::Arc;
 
 use abbe_interpreter::Interpreter;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 use serde::Serialize;
 
-use crate::finite;
-use crate::iso230::IsoAxis;
-use crate::machine::Machine;
-use crate::notes::Notes;
+use crate::{IsoAxis, Machine, Notes, Result, finite};
 
 pub use angles::Warning;
 pub use chain::{Chain, Dh, Link};
@@ -77,7 +74,7 @@ pub struct Report {
 
 impl Check {
     /// Runs all checks.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let spec = &self.machine.spec;
         let interpreter = Interpreter::new(Arc::clone(spec));
         let facts = Facts::new(&interpreter, &self.machine.origin);

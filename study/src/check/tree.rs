@@ -126,10 +126,8 @@ impl Tree {
             return None;
         }
         let found = (!spec.loops.is_empty()).then(|| at_home(spec, manipulator));
-        let (values, gaps, home) = match found {
-            Some((values, gaps, home)) => (values, gaps, Some(home)),
-            None => (Vec::new(), Vec::new(), None),
-        };
+        let (values, gaps, home) =
+            found.map(|(values, gaps, home)| (values, gaps, Some(home))).unwrap_or_default();
         let frame = |frame: usize| spec.frames[frame].name.clone();
         let passive = spec.passive.iter().zip(values).map(|(variable, value)| Passive {
             name: variable.name.clone(),

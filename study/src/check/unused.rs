@@ -18,8 +18,7 @@ pub(super) fn notes(spec: &Spec) -> Vec<String> {
     };
     let idle = spec.loads.iter().filter(|load| !carried(load)).count();
     let used: Vec<Symbol> = expressions(spec).into_iter().flat_map(Expression::symbols).collect();
-    let names = spec.inputs.iter().enumerate();
-    let unused = names.filter(|(i, _)| !used.contains(&Symbol::Input(*i)));
+    let unused = spec.inputs.iter().enumerate().filter(|(i, _)| !used.contains(&Symbol::Input(*i)));
     let unused: Vec<String> = unused.map(|(_, input)| format!("`{}`", input.name)).collect();
     let mut notes = Vec::new();
     match &unused[..] {

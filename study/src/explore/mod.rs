@@ -17,11 +17,10 @@ use std::sync::Arc;
 use abbe::analysis::{Configuration, Subset, Workspace};
 use abbe_codegen::print::Language;
 use abbe_interpreter::Interpreter;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 
 use crate::analyze::Analyze;
-use crate::notes::Notes;
-use crate::{Machine, Residuals, Study, finite, mistake};
+use crate::{About, Machine, Notes, Residuals, Result, Study, finite};
 
 /// Functions of the generated code that a page calls, if the manipulator has them.
 const FUNCTIONS: [&str; 6] =
@@ -52,7 +51,7 @@ impl Explore<'_> {
     }
 
     /// Generates the code and collects the data.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let machine = self.analysis.machine();
         let tunable = tunable(&machine.spec);
         let functions = Language::JavaScript.functions(&tunable);
@@ -70,20 +69,7 @@ impl Explore<'_> {
         let report = Report::new(&self.analysis, options, &tunable, effects, configurations, code);
         finite(&machine.origin, Report { residuals: self.residuals.clone(), ..report })
     }
-}
 
-/// Returns the spec with every source enabled, and a factor of each repeatable one as an input. The
-/// beams of disabled sources have no weight: it would load the structure at a factor of 0, too.
-fn tunable(spec: &Spec) -> Spec {
-    let mut spec = spec.clone();
-    for source in spec.sources.iter_mut().filter(|source| !source.enabled) {
-        source.remove_weight();
-        source.enabled = true;
-    }
-    spec.with_magnitudes_as_inputs()
-}
-
-impl Explore<'_> {
     /// Returns the options of `abbe analyze`, in the order of a command line: the study, its
     /// tolerances, then the changes, as they were given.
     fn analyze_options(&self) -> Vec<String> {
@@ -102,6 +88,17 @@ impl Explore<'_> {
     }
 }
 
+/// Returns the spec with every source enabled, and a factor of each repeatable one as an input. The
+/// beams of disabled sources have no weight: it would load the structure at a factor of 0, too.
+fn tunable(spec: &Spec) -> Spec {
+    let mut spec = spec.clone();
+    for source in spec.sources.iter_mut().filter(|source| !source.enabled) {
+        source.remove_weight();
+        source.enabled = true;
+    }
+    spec.with_magnitudes_as_inputs()
+}
+
 fn options(named: impl IntoIterator<Item = (&'static str, String)>) -> Vec<String> {
     named.into_iter().flat_map(|(name, value)| [format!("--{name}"), value]).collect()
 }
@@ -110,12 +107,11 @@ fn options(named: impl IntoIterator<Item = (&'static str, String)>) -> Vec<Strin
 const COUNT: usize = 1000;
 
 /// Returns reachable configurations, evenly chosen.
-fn configurations(analysis: &Analyze) -> Result<Configurations, Diagnostics> {
+fn configurations(analysis: &Analyze) -> Result<Configurations> {
     let machine = analysis.machine();
     let manipulator = machine.evaluator(true);
     let region = &analysis.study().region;
-    let workspace = region.workspace(&*manipulator, analysis.seed);
-    let workspace = workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
+    let workspace = region.workspace(&*manipulator, analysis.seed).about(&machine.origin)?;
     let reached = Subset { workspace: &*workspace, count: COUNT }.reached();
     let home = workspace.home();
     Ok(Configurations {

@@ -7,13 +7,12 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::{Closure, Loop, Spec};
 use serde::Serialize;
 
-use crate::Residuals;
 use crate::analyze::Analyze;
 use crate::calibration::named_as_one;
 use crate::jacobian::column_names;
 use crate::machine::followed_source;
-use crate::number;
 use crate::study_file::{Content, Criterion, Figure, JudgedMachine, Study, UP};
+use crate::{Residuals, number};
 
 /// Data of a live page: a machine, its study, and its generated code. Lengths are in the spec's
 /// unit, angles in rad, vectors in `F_0`.

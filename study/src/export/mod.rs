@@ -9,14 +9,10 @@ pub use abbe_exchange::urdf::Ends;
 pub use abbe_exchange::{FORMATS, Format, FormatMismatch, Needs};
 
 use abbe_exchange::export::RealMachine;
-use abbe_spec::Diagnostics;
 use abbe_spec::option::{NODES, TO_LINUXCNC_GENHEXKINS, TO_URDF};
 
-use crate::finite;
-use crate::machine::Machine;
-use crate::mistake;
-use crate::notes::Notes;
 use crate::number::digits;
+use crate::{Machine, Notes, Result, finite, mistake};
 
 /// Job that writes a machine with its repeatable errors in another format.
 #[derive(Clone)]
@@ -34,7 +30,7 @@ pub struct Export {
 impl Export {
     /// Writes the files as text, reads them back and compares the poses of the tool. Files that would
     /// make its error larger are an error.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Self { machine: Machine { spec, origin, .. }, format, samples, seed } = self;
         if !matches!(format, Format::UrdfTree | Format::LinuxCncGenhexkins) {
             let instead = format!(

@@ -10,15 +10,13 @@ use abbe::analysis::{
     Workspace, sweep,
 };
 use abbe_spec::option::{NamedOption, option};
-use abbe_spec::{Diagnostics, Source, Spec};
+use abbe_spec::{Source, Spec};
 use serde::Serialize;
 
-use crate::finite::finite;
 use crate::machine::{Machine, followed_source};
-use crate::notes::Notes;
 use crate::number::{Named, decimals, percent, rounded_down};
 use crate::study_file::{Criterion, JudgedMachine, Study};
-use crate::{mistake, number};
+use crate::{Notes, Result, finite, mistake, number};
 
 /// Largest number of exceeding configurations that are added after a sweep.
 const ADDED: usize = 1000;
@@ -46,7 +44,7 @@ impl Factors<'_> {
         manipulator: &dyn Sweepable,
         workspace: &dyn Workspace,
         notes: &mut dyn Notes,
-    ) -> Result<Report, Diagnostics> {
+    ) -> Result<Report> {
         let Self { machine, study, .. } = *self;
         let spec = &machine.spec;
         let refused = |message: &str, help: &str| mistake::with_help(&machine.origin, message, help);

@@ -9,11 +9,10 @@ use std::path::PathBuf;
 
 use abbe_exchange::import::AngleRounding;
 use abbe_exchange::{dh, urdf};
+use abbe_spec::Document;
 use abbe_spec::option::{DH_MODIFIED, DH_STANDARD};
-use abbe_spec::{Diagnostics, Document};
 
-use crate::mistake;
-use crate::notes::Notes;
+use crate::{Notes, Result, mistake};
 
 /// Job that writes the spec of a robot in another format.
 #[derive(Clone, Debug)]
@@ -28,7 +27,7 @@ pub struct Import {
 
 impl Import {
     /// Reads the file and writes the spec.
-    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let is_table = self.file.extension().is_some_and(|ending| ending == "csv" || ending == "tsv");
         if is_table && matches!(self.format, Format::Urdf { .. }) {
             let message = "the convention of these Denavit-Hartenberg numbers is unknown";
@@ -42,7 +41,7 @@ impl Import {
     }
 
     /// Writes the spec of a text; the spec names [`file`](Self::file) as its origin.
-    pub fn read(&self, document: Document, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn read(&self, document: Document, notes: &mut dyn Notes) -> Result<Report> {
         let read = |angles: &mut AngleRounding, notes: &mut dyn Notes| match &self.format {
             Format::Urdf { base, tip, fold } => {
                 let ends = urdf::Ends { base: base.clone(), tip: tip.clone() };

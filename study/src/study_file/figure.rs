@@ -160,8 +160,7 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Figure> {
         Kind::Histogram => Content::Histogram,
         Kind::Pareto => Content::Pareto,
         Kind::Manipulator => {
-            let up = section.get("up");
-            let up = up.map(|item| item.choice(&UP_AXES));
+            let up = section.get("up").map(|item| item.choice(&UP_AXES));
             Content::Manipulator(up.unwrap_or(Some(UP))?)
         }
     };

@@ -4,7 +4,7 @@ use abbe_spec::option::STUDY;
 use std::path::{Path, PathBuf};
 
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Diagnostic, Diagnostics, Document, Item, Section, Spec};
+use abbe_spec::{Diagnostic, Document, Item, Section, Spec};
 use sha2::{Digest, Sha256};
 
 use super::choices::{CRITERIA, Criterion, JudgedMachine};
@@ -12,15 +12,13 @@ use super::figure::read_figures;
 use super::study::{PROBABILITY, Study, read_allocation, read_compensated, read_published};
 use super::tolerance::{self, Tolerance};
 use super::{compensation, keys};
-use crate::changes::{Changes, find_symbol};
-use crate::machine::Machine;
-use crate::named;
 use crate::workspace::{Region, constant, read_region};
+use crate::{Changes, Machine, Result, find_symbol, named};
 
 impl Study {
     /// Returns the study in `file`; or else the one [beside the spec](Self::beside), the one
     /// shipped with the manipulator, or joint samples.
-    pub fn find(file: Option<&Path>, machine: &Machine) -> Result<Self, Diagnostics> {
+    pub fn find(file: Option<&Path>, machine: &Machine) -> Result<Self> {
         let beside = Self::beside(machine);
         match (file.or(beside.as_deref()), machine.shipped.and_then(|shipped| shipped.study)) {
             (Some(path), _) => Self::read(Self::document(path)?, &machine.spec),
@@ -32,7 +30,7 @@ impl Study {
     }
 
     /// Reads the study in a file, or the shipped one with that name.
-    pub(crate) fn document(argument: &Path) -> Result<Document, Diagnostics> {
+    pub(crate) fn document(argument: &Path) -> Result<Document> {
         named::document(&STUDY, argument, abbe_manipulators::STUDIES, "studies", "shipped study")
     }
 
@@ -52,7 +50,7 @@ impl Study {
     }
 
     /// Reads a study and checks it against the spec of its manipulator.
-    pub fn read(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
+    pub fn read(mut document: Document, spec: &Spec) -> Result<Self> {
         document.length = spec.length;
         document.read_tables(|root| read(root, spec))
     }

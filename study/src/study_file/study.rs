@@ -8,15 +8,12 @@ use std::path::PathBuf;
 
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
-use abbe_spec::{Diagnostic, Diagnostics, Item, Section, Spec};
+use abbe_spec::{Diagnostic, Item, Section, Spec};
 use serde::Serialize;
 
-use super::choices::{CombinedFigure, Criterion, JudgedMachine, Metric};
-use super::compensation::Compensated;
-use super::figure::Figure;
-use super::{keys, tolerance};
-use crate::changes::Changes;
+use super::{CombinedFigure, Compensated, Criterion, Figure, JudgedMachine, Metric, keys, tolerance};
 use crate::workspace::{Region, constant, positive};
+use crate::{Changes, Result};
 
 /// Probability and yield that are required if a study states none.
 pub(super) const PROBABILITY: f64 = 0.95;
@@ -98,7 +95,7 @@ impl Study {
     /// # Errors
     ///
     /// Returns a mistake for a text that is no positive length or angle.
-    pub fn limit(&mut self, tolerances: &[String], spec: &Spec) -> Result<(), Diagnostics> {
+    pub fn limit(&mut self, tolerances: &[String], spec: &Spec) -> Result<()> {
         for (is_angle, value) in tolerance::parse(tolerances, spec.length)? {
             let limit = if is_angle { &mut self.orientation_tolerance } else { &mut self.tolerance };
             *limit = Some(value);
@@ -227,8 +224,7 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Published> {
             let name = source.string();
             let known = name
                 .filter(|name| find_name(section.document, source.span(), name, &names, "source").is_some());
-            let metric = section.required("metric");
-            let metric = metric.and_then(|item| item.choice(&Metric::ALL));
+            let metric = section.required("metric").and_then(|item| item.choice(&Metric::ALL));
             known.zip(metric).map(|(name, metric)| Subject::Source(name, metric))
         }
         (None, Some(combined)) => {
@@ -243,8 +239,7 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Published> {
     };
     let figures = ["x", "y", "z", "norm"]
         .map(|key| constant(&section.get(key)?, Dimension::LENGTH, &format!("the figure `{key}`")));
-    let within = section.required("within");
-    let within = within.and_then(|item| positive(&item, Dimension::LENGTH));
+    let within = section.required("within").and_then(|item| positive(&item, Dimension::LENGTH));
     let reference = section.optional_text("reference");
     Some(Published { subject: subject?, figures, within: within?, reference })
 }

@@ -3,11 +3,12 @@
 use abbe::LengthUnit;
 use abbe_spec::expr::Dimension;
 use abbe_spec::option::{TOLERANCE, option};
-use abbe_spec::value::parse_value;
-use abbe_spec::{Diagnostic, Diagnostics, Document, Item};
+use abbe_spec::{Diagnostic, Document, Item};
 
 use super::choices::{JudgedMachine, MACHINES};
 use super::keys;
+use crate::Result;
+use crate::options::quantity;
 use crate::workspace::positive;
 
 /// Permitted errors of the tool.
@@ -29,14 +30,10 @@ pub(super) struct Tolerance {
 
 /// Parses limits given as options: a length limits the position error, an angle the orientation
 /// error. Returns each with `true` for an angle; there is at most one of each.
-pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f64)>, Diagnostics> {
+pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f64)>> {
     let mut limits: Vec<(bool, f64)> = Vec::new();
     for text in texts {
-        let value = |dimension| {
-            let document = Document::new(TOLERANCE, text.as_str());
-            let value = parse_value(&document, 0..text.len(), length, dimension, "the tolerance");
-            document.finish(value)
-        };
+        let value = |dimension| quantity(TOLERANCE, text, length, dimension, "the tolerance");
         let is_angle = |text: &str| text.contains(char::is_alphabetic);
         let limit = match value(Dimension::LENGTH) {
             Ok(value) => (false, value),

@@ -5,9 +5,8 @@ use abbe_spec::expr::Dimension;
 use abbe_spec::{Diagnostic, Item};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use super::axis::constant;
-use super::keys;
 use super::keys::ORIENTATIONS;
+use super::{constant, keys};
 use crate::number;
 
 /// Smallest angle between two axes of the tool that are not perpendicular, in rad.

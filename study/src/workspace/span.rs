@@ -3,11 +3,11 @@
 use abbe::Manipulator;
 use abbe::analysis::sampling::range_of;
 use abbe::analysis::{Axis, BaseBox, Presentation};
+use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Diagnostics, Spec};
 
 use super::region::{Form, Region};
-use crate::mistake;
+use crate::{Result, mistake};
 
 /// Largest number of configurations from which the ranges of joints that are solved for are
 /// computed.
@@ -48,12 +48,7 @@ impl Region {
     /// whole limits if none are, or if there are more than 10,000 to solve for. Returns an
     /// error if such a joint, or one that is sampled, has no limits. `origin` is the name of the
     /// spec in messages.
-    pub fn spans(
-        &self,
-        spec: &Spec,
-        manipulator: &dyn Manipulator,
-        origin: &str,
-    ) -> Result<Vec<Span>, Diagnostics> {
+    pub fn spans(&self, spec: &Spec, manipulator: &dyn Manipulator, origin: &str) -> Result<Vec<Span>> {
         let limits = |i: &usize| Span { symbol: Symbol::Variable(*i), range: spec.variables[*i].limits };
         let over = |symbol: fn(usize) -> Symbol| move |axis: &Axis| hull(symbol(axis.index), &axis.values);
         let reached = |solved: &[usize]| {

@@ -1,8 +1,7 @@
 //! Autocollimator, electronic level: inclination of a direction on the tool towards a fixed
 //! direction.
 
-use super::geometry::Geometry;
-use super::kind::{Evaluation, InstrumentKind, Observable, SizeInformation};
+use super::{Evaluation, Geometry, InstrumentKind, Observable, SizeInformation};
 use abbe_analysis::sampling::vectors::{cross, dot};
 
 /// `asin(n · R m)`, in rad.

@@ -1,7 +1,6 @@
 //! Calliper, length bar: distance of two targets on the tool.
 
-use super::geometry::Geometry;
-use super::kind::{Evaluation, InstrumentKind, Observable, Reference};
+use super::{Evaluation, Geometry, InstrumentKind, Observable, Reference};
 use abbe_analysis::sampling::vectors::{dot, subtract as difference, unit};
 
 /// `|p_1 − p_2|`.

@@ -3,8 +3,7 @@
 //! The instrument's frame is that of the thing that stands in the room: the camera, or the board if
 //! the camera is on the tool. The other one is the measured frame on the tool.
 
-use super::geometry::Geometry;
-use super::kind::{Evaluation, InstrumentKind, Observable, SizeInformation};
+use super::{Evaluation, Geometry, InstrumentKind, Observable, SizeInformation};
 
 /// Pixels `u` and `v` of a corner.
 pub static CAMERA: InstrumentKind = InstrumentKind {

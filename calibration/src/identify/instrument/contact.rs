@@ -1,7 +1,6 @@
 //! Centre point, nest: a target is held at a fixed point.
 
-use super::geometry::Geometry;
-use super::kind::{Evaluation, InstrumentKind, Observable, SizeInformation};
+use super::{Evaluation, Geometry, InstrumentKind, Observable, SizeInformation};
 use abbe_core::Pose;
 
 /// `p − c = 0`.

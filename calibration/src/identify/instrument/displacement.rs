@@ -1,7 +1,6 @@
 //! Laser interferometer, linear scale: distance of a target from its position in the previous row.
 
-use super::geometry::Geometry;
-use super::kind::{Evaluation, InstrumentKind, Observable, Reference};
+use super::{Evaluation, Geometry, InstrumentKind, Observable, Reference};
 use abbe_analysis::sampling::vectors::{dot, subtract as difference, unit};
 
 /// `|p − p_0|`.

@@ -1,7 +1,6 @@
 //! Ballbar, draw-wire: distance of a target from a fixed point.
 
-use super::geometry::Geometry;
-use super::kind::{Evaluation, InstrumentKind, Observable};
+use super::{Evaluation, Geometry, InstrumentKind, Observable};
 use abbe_analysis::sampling::vectors::{dot, subtract as difference, unit};
 
 /// `|p − c|`.

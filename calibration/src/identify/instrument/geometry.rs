@@ -1,7 +1,6 @@
 //! Positions and orientations at one configuration, from which observables are computed.
 
-use super::fixture::Fixture;
-use super::lens::Camera;
+use super::{Camera, Fixture};
 use abbe_core::Pose;
 
 /// The tool, the targets and the fixtures at one configuration.

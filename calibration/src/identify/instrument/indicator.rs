@@ -1,7 +1,6 @@
 //! Dial indicator with a flat tip: coordinate of a target along a fixed direction.
 
-use super::geometry::Geometry;
-use super::kind::{Evaluation, InstrumentKind, Observable, SizeInformation};
+use super::{Evaluation, Geometry, InstrumentKind, Observable, SizeInformation};
 use abbe_analysis::sampling::vectors::{dot, subtract as difference};
 
 /// `n · (p − a)`.

@@ -1,7 +1,6 @@
 //! Description of an instrument, and the observables it reads.
 
-use super::geometry::Geometry;
-use super::lens::INTRINSICS;
+use super::{Geometry, INTRINSICS};
 
 /// A kind of instrument: its keys in a map, its observables and their gradients.
 ///

@@ -1,8 +1,7 @@
 //! Laser tracker, coordinate measuring machine: coordinates of a target in the frame of the
 //! instrument.
 
-use super::geometry::Geometry;
-use super::kind::{Evaluation, InstrumentKind, Observable, SizeInformation};
+use super::{Evaluation, Geometry, InstrumentKind, Observable, SizeInformation};
 
 /// Coordinates `p_x`, `p_y`, `p_z`.
 pub(super) static POINT: InstrumentKind = InstrumentKind {

@@ -1,7 +1,6 @@
 //! Rotary-axis calibrator, angular interferometer: rotation of the tool since the previous row.
 
-use super::geometry::Geometry;
-use super::kind::{Evaluation, InstrumentKind, Observable, Reference, SizeInformation};
+use super::{Evaluation, Geometry, InstrumentKind, Observable, Reference, SizeInformation};
 use abbe_analysis::sampling::vectors::{dot, unit};
 use abbe_core::rotation_vector;
 

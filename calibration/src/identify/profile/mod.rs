@@ -27,8 +27,7 @@ use core::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::fit::REJECTED;
-use super::{Distances, Failure, Fit, Folds, Model, Observation};
+use super::{Distances, Failure, Fit, Folds, Model, Observation, REJECTED, Result};
 use abbe_analysis::in_order;
 
 use basis::Centered;
@@ -101,7 +100,7 @@ pub fn fit_profiles(
     joints: &[ProfileJoint],
     folds: &Folds,
     proceed: &mut dyn FnMut() -> bool,
-) -> Result<Option<Profiles>, Failure> {
+) -> Result<Option<Profiles>> {
     if joints.is_empty() || data.iter().any(|row| row.from().is_some()) {
         return Ok(None);
     }
@@ -154,7 +153,7 @@ fn cross_validated(
     folds: &Folds,
     normal: &Normal,
     ridges: &[Ridges],
-) -> Result<Distances, Failure> {
+) -> Result<Distances> {
     let extended = normal::extended(model, fit, joints);
     let solution = |fold: usize| {
         let solved = normal.solved(Some(fold), &ridges[fold]);

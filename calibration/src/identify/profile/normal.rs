@@ -4,9 +4,9 @@ use core::ops::Range;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
+use super::super::Result;
 use super::basis::Centered;
-use crate::identify::fit::REJECTED;
-use crate::identify::{Failure, Fit, Folds, Model, Observation};
+use crate::identify::{Failure, Fit, Folds, Model, Observation, REJECTED};
 use abbe_analysis::in_order;
 
 /// Rows that are added to the sums together, and columns that are eliminated together.
@@ -82,7 +82,7 @@ impl Normal {
         fit: &Fit,
         joints: &[Centered],
         folds: &Folds,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let kept = fit.identifiable.kept.clone();
         let mut starts = vec![kept.len()];
         for joint in joints {

@@ -9,8 +9,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::super::errors::Visit;
-use super::mean_and_max::MeanAndMax;
-use super::visits::mean;
+use super::{MeanAndMax, mean};
 
 /// Configurations that were approached from several directions.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -5,9 +5,8 @@
 
 use serde::Serialize;
 
-use super::mean_and_max::MeanAndMax;
 use super::pose::Characteristics;
-use super::visits::Visits;
+use super::{MeanAndMax, Visits};
 
 /// Number of visits in a value of AP and RP, as in the standard.
 const CYCLES: usize = 10;

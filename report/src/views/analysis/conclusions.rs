@@ -152,20 +152,14 @@ fn first_order(report: &Report) -> String {
         (false, _) => "the random sources at their bounds",
         _ => "all sources, the random ones at their bounds,",
     };
-    let spread = match first_order.checked < report.configurations {
-        true => ", evenly spaced",
-        false => "",
-    };
+    let spread = if first_order.checked < report.configurations { ", evenly spaced" } else { "" };
     let (differs, by) = match first_order.largest {
         0.0 => ("does not differ", String::new()),
         largest => ("differs", format!(" by {}", upper_bound(report, largest))),
     };
     format!(
         "First order: J_e ε of {which} {differs} from {}{by}, at {} configurations{spread}.",
-        match report.spec.is_serial() {
-            true => "the exact chain A_1 E_1 … A_n E_n T",
-            false => exact(report),
-        },
+        if report.spec.is_serial() { "the exact chain A_1 E_1 … A_n E_n T" } else { exact(report) },
         first_order.checked,
     )
 }

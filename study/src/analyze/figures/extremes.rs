@@ -151,8 +151,7 @@ impl Grid {
 
     /// Returns the mesh of both travels; a cell is `None` where no configuration fell.
     pub(super) fn mesh(self) -> Mesh {
-        let exponents = self.0.iter().map(|(_, line)| line.bins.exponent);
-        let exponent = exponents.max().unwrap_or(FINEST);
+        let exponent = self.0.iter().map(|(_, line)| line.bins.exponent).max().unwrap_or(FINEST);
         let mut columns = Bins::<Range>::new(FINEST, usize::MAX);
         columns.widen(exponent);
         let lines = self.0.into_contents().map(|mut line| {

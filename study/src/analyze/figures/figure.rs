@@ -5,10 +5,7 @@
 use abbe::analysis::sampling::norm;
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::bins::{Bins, Merge, listed};
-use super::extremes::{Envelope, Mesh};
-use super::points::Points;
-use super::stick::Stick;
+use super::{Bins, Envelope, Merge, Mesh, Points, Stick, listed};
 use crate::study_file;
 
 /// Figures of a study.

@@ -4,11 +4,9 @@ use abbe::analysis::{Configuration, ErrorParts, Measurand, Row};
 use abbe::{Class, Description, Source};
 use serde::{Deserialize, Serialize};
 
-use super::bins::Bins;
 use super::errors::Errors;
 use super::extremes::{Envelope, Extremes, Grid};
-use super::figure::{Count, FigureData, Histogram};
-use super::points::Points;
+use super::{Bins, Count, FigureData, Histogram, Points};
 use crate::study_file::{Content, Figure, Over};
 
 /// Data gathered so far for a figure.

@@ -2,13 +2,12 @@
 
 use abbe::Description;
 use abbe::analysis::{Configuration, Row, Sweepable, sweep};
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::Spec;
 
-use super::figure::{Figure, FigureData, Figures};
 use super::figure_builder::{FigureBuilder, PartialFigure};
-use super::stick::Stick;
-use crate::mistake;
+use super::{Figure, FigureData, Figures, Stick};
 use crate::study_file::{Content, Study};
+use crate::{About, Result, mistake};
 
 /// Figures of a study while their data are gathered.
 pub(in crate::analyze) struct FiguresBuilder<'a> {
@@ -59,14 +58,13 @@ impl<'a> FiguresBuilder<'a> {
         manipulator: &dyn Sweepable,
         home: &Configuration,
         spec: &Spec,
-    ) -> Result<Figures, Diagnostics> {
+    ) -> Result<Figures> {
         let finish = |mut builder: FigureBuilder<'a>| {
             let own_workspace = sweep_own(&mut builder, manipulator, spec)?;
             let (request, bounds) = (builder.figure.clone(), builder.bounds);
             let data = match request.content {
                 Content::Manipulator(_) => {
-                    let stick = Stick::at_home(manipulator, home, spec);
-                    FigureData::Manipulator(stick.map_err(|error| mistake::whole(&spec.file, &error))?)
+                    FigureData::Manipulator(Stick::at_home(manipulator, home, spec).about(&spec.file)?)
                 }
                 _ => builder.finish(),
             };
@@ -83,10 +81,9 @@ fn sweep_own(
     builder: &mut FigureBuilder,
     manipulator: &dyn Sweepable,
     spec: &Spec,
-) -> Result<Option<[usize; 2]>, Diagnostics> {
+) -> Result<Option<[usize; 2]>> {
     let Some(region) = &builder.figure.region else { return Ok(None) };
-    let workspace =
-        region.workspace(manipulator, None).map_err(|error| mistake::whole(&spec.file, &error))?;
+    let workspace = region.workspace(manipulator, None).about(&spec.file)?;
     let unreachable = sweep(manipulator, &*workspace, &mut |row| builder.add(row))
         .map_err(|refused| mistake::whole(&spec.file, &refused.error))?;
     Ok(Some([workspace.len() - unreachable.count, unreachable.count]))

@@ -3,13 +3,10 @@
 use abbe_spec::option::{DISABLE, ENABLE, SCALE, SET, SHARD_NUMBER, shard_command};
 use std::sync::Arc;
 
-use abbe_spec::Diagnostics;
-
 use super::part::{Build, Part};
 use super::shard::Shard;
 use crate::analyze::{Analyze, Report};
-use crate::mistake;
-use crate::notes::Notes;
+use crate::{Notes, Result, mistake};
 
 /// All parts of an analysis, with its job.
 pub struct Merge {
@@ -22,7 +19,7 @@ impl Merge {
     /// Checks that the parts are all of one analysis. Each part comes with its name for messages;
     /// their order does not matter. Opens no file: part 1 carries the contents of all tables and
     /// paths.
-    pub fn new(parts: Vec<(String, Part)>, notes: &mut dyn Notes) -> Result<Self, Diagnostics> {
+    pub fn new(parts: Vec<(String, Part)>, notes: &mut dyn Notes) -> Result<Self> {
         let mut parts = sorted_and_complete(parts)?;
         // The remaining computations must agree bit for bit with those of the parts.
         for (name, Part { made_by: Build { version, machine }, .. }) in parts.iter().take(1) {
@@ -63,7 +60,7 @@ impl Merge {
     }
 
     /// Returns the report, byte for byte that of a single run.
-    pub fn report(self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn report(self, notes: &mut dyn Notes) -> Result<Report> {
         let named = self.parts.into_iter().map(|(name, part)| (name, part.shard, part.gathered));
         self.job.report_on_parts(named.collect(), notes)
     }
@@ -71,7 +68,7 @@ impl Merge {
 
 /// Sorts the parts by shard, and checks that they are one analysis, complete and without
 /// duplicates.
-fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Part)>, Diagnostics> {
+fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Part)>> {
     parts.sort_by_key(|(_, part)| part.shard);
     let Some((first_name, first)) = parts.first() else { return Ok(parts) };
     let Build { version, machine } = &first.made_by;

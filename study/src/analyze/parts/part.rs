@@ -5,7 +5,6 @@
 use std::path::Path;
 
 use abbe::lanes::InstructionSet;
-use abbe_spec::Diagnostics;
 use abbe_spec::bounded::{Bounded, Contents, UnreadableFile};
 use abbe_spec::option::SHARD;
 use serde::{Deserialize, Serialize};
@@ -13,9 +12,15 @@ use serde::{Deserialize, Serialize};
 use super::request::{self, AnalysisRequest};
 use super::shard::Shard;
 use crate::analyze::sweep::PartialAnalysis;
-use crate::finite::finite;
-use crate::notes::Notes;
-use crate::{hash, mistake};
+use crate::{Notes, Result, finite, hash, mistake};
+
+/// Prefix of each part file, followed by the format version.
+const BEGINNING: &str = "abbe part ";
+const VERSION: &str = "4";
+/// Length of the checksum line at the end, newline included.
+const CHECKSUM: usize = 65;
+/// Largest file that is read, in bytes.
+const LONGEST: u64 = 1 << 30;
 
 /// Data gathered over a share of a workspace, with the question that they belong to.
 ///
@@ -54,7 +59,7 @@ impl Build {
 
 impl Part {
     /// Sweeps a share of the workspace.
-    pub fn new(request: AnalysisRequest, shard: Shard, notes: &mut dyn Notes) -> Result<Self, Diagnostics> {
+    pub fn new(request: AnalysisRequest, shard: Shard, notes: &mut dyn Notes) -> Result<Self> {
         let job = request.job(&mut ())?;
         let refused = |message| mistake::with_help(&request.spec, message, "choose fewer draws");
         request.check_draws().map_err(refused)?;
@@ -80,17 +85,7 @@ impl Part {
         let budget = &self.gathered.budget;
         [budget.configurations(), budget.unreachable()]
     }
-}
 
-/// Prefix of each part file, followed by the format version.
-const BEGINNING: &str = "abbe part ";
-const VERSION: &str = "4";
-/// Length of the checksum line at the end, newline included.
-const CHECKSUM: usize = 65;
-/// Largest file that is read, in bytes.
-const LONGEST: u64 = 1 << 30;
-
-impl Part {
     /// Returns the file content, three lines: the format version, the part as JSON, and the SHA-256
     /// of both.
     pub fn to_bytes(&self) -> Vec<u8> {
@@ -102,7 +97,7 @@ impl Part {
     }
 
     /// Parses the output of [`to_bytes`](Self::to_bytes). Mistakes are reported under `name`.
-    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Diagnostics> {
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self> {
         let wrong = |message: &str, help: &str| mistake::with_help(name, message, help);
         let Some(rest) = bytes.strip_prefix(BEGINNING.as_bytes()) else {
             return Err(wrong("this is not a part of an analysis", &format!("`{SHARD}` writes one")));
@@ -137,7 +132,7 @@ impl Part {
     }
 
     /// Reads a part file.
-    pub fn read(path: &Path) -> Result<Self, Diagnostics> {
+    pub fn read(path: &Path) -> Result<Self> {
         let bytes = Bounded::read_all(path, LONGEST).map_err(|error| {
             let UnreadableFile { message, help } =
                 UnreadableFile::from_error(&error, "give the path of a part");

@@ -4,17 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use abbe_spec::bounded::{Bounded, Contents, UnreadableFile};
-use abbe_spec::{Diagnostics, Document, Spec};
+use abbe_spec::{Document, Spec};
 use serde::{Deserialize, Serialize};
 
 use crate::analyze::Analyze;
 use crate::analyze::options::DRAWS;
-use crate::changes::Changes;
-use crate::hash;
-use crate::machine::Machine;
-use crate::mistake;
-use crate::notes::Notes;
-use crate::study_file::Study;
+use crate::{Changes, Machine, Notes, Result, Study, hash, mistake};
 
 /// Largest size of all files that a part carries, in bytes.
 const LARGEST: u64 = 512 << 20;
@@ -32,7 +27,7 @@ pub struct FileText {
 
 impl FileText {
     /// Reads a file.
-    pub fn read(path: &Path) -> Result<Self, Diagnostics> {
+    pub fn read(path: &Path) -> Result<Self> {
         Document::read(path).map(Self::new)
     }
 
@@ -67,7 +62,7 @@ pub enum Change {
 impl Change {
     /// Parses the change. Mistakes are reported under the options `--set`, `--enable`, `--disable`
     /// and `--scale`.
-    pub fn read(&self, spec: &Spec) -> Result<Changes, Diagnostics> {
+    pub fn read(&self, spec: &Spec) -> Result<Changes> {
         let one = std::slice::from_ref::<String>;
         match self {
             Self::Set(text) => Changes::read([one(text), &[], &[], &[]], spec),
@@ -105,7 +100,7 @@ pub struct AnalysisRequest {
 impl AnalysisRequest {
     /// Creates the question with default options. Uses the given study, or the one
     /// [`beside`](Study::beside) the spec.
-    pub fn new(machine: &Machine, study: Option<&Path>) -> Result<Self, Diagnostics> {
+    pub fn new(machine: &Machine, study: Option<&Path>) -> Result<Self> {
         let file = machine.file.as_deref();
         let beside = Study::beside(machine);
         Ok(Self {
@@ -123,9 +118,8 @@ impl AnalysisRequest {
 
     /// Checks the number of draws; returns a message if it is out of range.
     pub(super) fn check_draws(&self) -> Result<(), String> {
-        match self.monte_carlo {
+        match self.monte_carlo.filter(|draws| !DRAWS.contains(draws)) {
             None => Ok(()),
-            Some(draws) if DRAWS.contains(&draws) => Ok(()),
             Some(draws) => {
                 Err(format!("it has {draws} draws; the number must be between 1 and {}", DRAWS.end()))
             }
@@ -134,7 +128,7 @@ impl AnalysisRequest {
 
     /// Returns the job that answers the question. Opens the tables and paths that the spec and the
     /// study name.
-    pub fn job(&self, notes: &mut dyn Notes) -> Result<Analyze, Diagnostics> {
+    pub fn job(&self, notes: &mut dyn Notes) -> Result<Analyze> {
         self.job_from(None, notes)
     }
 
@@ -144,7 +138,7 @@ impl AnalysisRequest {
         &self,
         contents: Option<&Arc<Contents>>,
         notes: &mut dyn Notes,
-    ) -> Result<Analyze, Diagnostics> {
+    ) -> Result<Analyze> {
         let machine = match (&self.spec_text, Machine::named(&self.spec)?) {
             (Some(file), _) => Machine::of_spec(Spec::from_document(file.document(contents))?, &self.spec),
             (None, Some(shipped)) => shipped,
@@ -174,7 +168,7 @@ impl AnalysisRequest {
     /// Returns the key that identifies the parts of one analysis: the SHA-256 of all file contents
     /// (tables and paths included) and options. File locations do not affect it. Opens no file if
     /// their contents are given.
-    pub(super) fn identity(&self, job: &Analyze, contents: Option<&Contents>) -> Result<String, Diagnostics> {
+    pub(super) fn identity(&self, job: &Analyze, contents: Option<&Contents>) -> Result<String> {
         let (spec, study) = (&job.machine().spec, job.study());
         let hash = |file: &PathBuf| match contents {
             None => hash::file(file),
@@ -189,7 +183,7 @@ impl AnalysisRequest {
 }
 
 /// Reads the tables and paths that a job has read.
-pub(super) fn contents(job: &Analyze) -> Result<Contents, Diagnostics> {
+pub(super) fn contents(job: &Analyze) -> Result<Contents> {
     let (mut contents, mut left) = (Contents::new(), LARGEST);
     for file in job.machine().spec.beside.iter().chain(&job.study().files) {
         let wrong = |message: String, help: &str| mistake::with_help(file.display(), message, help);

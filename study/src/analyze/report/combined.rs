@@ -9,9 +9,8 @@ use abbe::analysis::{Budget, Combined, Figures, Measurand, MonteCarlo, SourceErr
 use abbe_spec::Spec;
 use serde::Serialize;
 
-use super::ledger::JudgedShares;
 use super::source_report::{ErrorSite, ErrorSites};
-use super::uncertainty_budget::UncertaintyBudget;
+use super::{JudgedShares, UncertaintyBudget};
 use crate::number::Named;
 
 /// Combined errors over the workspace, as the paper adds them. Position: along x, y, z of `F_0`, in

@@ -36,9 +36,7 @@ pub use uncertainty_budget::{SourceUncertainty, UncertaintyBudget};
 
 use super::compensated::CompensatedErrors;
 use super::figures::Figures;
-use super::first_order::FirstOrder;
-use super::unreachable::LoopCondition;
-use super::unreachable::UnreachableReason;
+use super::{FirstOrder, LoopCondition, UnreachableReason};
 use crate::bound::CertifiedNorms;
 use crate::study_file::{CombinedFigure, Criterion, PublishedResidual, Study, Subject};
 use crate::{Extrapolation, RunRecord, number};
