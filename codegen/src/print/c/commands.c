@@ -15,8 +15,9 @@ for (int at_call = 0; at_call < CASES; at_call++) {
         }
         command_at[j] = (k < SAME || !(span < 1e30)) ? given_q[j] : (lower + (share * span));
         first[j] = ((double)((((5 * k) + (4 * j)) % 9) - 4) * 0.25 * (double)(k % 2)) * NAME_change[j];
-        change[j] = scales[k % 4] * NAME_change[j];
-        largest[j] = scales[4 + ((k / 2) % 4)] * NAME_largest[j];
+        const int scale = (k < 2) ? 0 : ((k + (3 * j)) % 8);
+        change[j] = scales[scale] * NAME_change[j];
+        largest[j] = scales[8 + scale] * NAME_largest[j];
     }
     for (int i = 0; i < 3; i++) {
         rotations[i] = (((k + i) % 4) == 3) ? 0.0 : 1.0;

@@ -11,11 +11,16 @@ use crate::chain::Model;
 /// Number of calls at the configuration of the self-test, which differ in their bounds only.
 const AT_ONE: usize = 8;
 
+/// Number of calls whose corrections nothing holds.
+const FREE: usize = 2;
+
 /// Largest number of joints that are tried beyond each of their limits.
 const JOINTS: usize = 8;
 
-/// Shares of the change by default, then of the largest correction.
-pub(super) const SCALES: [f64; 8] = [1e3, 0.25, 1.0, 0.5, 1e3, 1.0, 0.03, 1e3];
+/// Shares of the change by default, then of the largest correction; the first holds nothing. In
+/// single precision, the joints that the size of a correction holds depend on rounding.
+const SCALES: [[f64; 8]; 2] =
+    [[1e3, 0.25, 1.0, 0.5, 1e3, 0.1, 0.02, 1.0], [1e3, 1e3, 0.03, 1.0, 0.1, 1e3, 0.3, 0.01]];
 
 /// Share of the range by which a command is beyond a limit.
 const BEYOND: f64 = 1e-3;
@@ -50,6 +55,11 @@ impl<'m> Commands<'m> {
         [AT_ONE, AT_ONE + joints, AT_ONE + 2 * joints, AT_ONE + 3 * joints]
     }
 
+    /// Returns [`SCALES`] in the precision of the code.
+    pub(super) fn scales(&self) -> [[f64; 8]; 2] {
+        [SCALES[0], if self.real == Real::Float { [SCALES[1][0]; 8] } else { SCALES[1] }]
+    }
+
     /// Returns the calls whose results rounding errors do not change by more than the tolerance.
     pub(super) fn calls(&self, signature: &Signature) -> Vec<Call> {
         (0..self.ends()[3]).filter_map(|number| self.call(signature, number)).collect()
@@ -75,24 +85,20 @@ impl<'m> Commands<'m> {
             let is_there = k < same || above <= same || !span.is_finite();
             if is_there { self.given[0].1[j] } else { lower + nearest(nearest(share) * span) }
         });
-        let bounds =
-            |share: f64, bounds| each(&|_, one| share * nearest(bound(self.description, one.kind, bounds)));
+        let bounds = |of: usize, bounds| {
+            let share = |j: usize| nearest(self.scales()[of][if k < FREE { 0 } else { (k + 3 * j) % 8 }]);
+            each(&|j, one| share(j) * nearest(bound(self.description, one.kind, bounds)))
+        };
         let last = each(&|j, one| {
             let share = (((5 * k + 4 * j) % 9) as f64 - 4.0) * 0.25 * (k % 2) as f64;
             share * nearest(bound(self.description, one.kind, CHANGE))
         });
-        let [change, largest] = [(SCALES[k % 4], CHANGE), (SCALES[4 + k / 2 % 4], LARGEST)];
         let rotations = std::array::from_fn(|i| if (k + i) % 4 == 3 { 0.0 } else { 1.0 });
-        let [change, largest] = [change, largest].map(|(share, of)| bounds(nearest(share), of));
-        (command, Cycle { last, change, largest, rotations })
+        (command, Cycle { last, change: bounds(0, CHANGE), largest: bounds(1, LARGEST), rotations })
     }
 
     fn call(&self, signature: &Signature, number: usize) -> Option<Call> {
         let (command, cycle) = self.arguments(number);
-        // In single precision, the joints that the size of a correction holds depend on rounding.
-        if self.real == Real::Float && SCALES[4 + number / 2 % 4] < 1.0 {
-            return None;
-        }
         let [least, most] = [-1.0, 1.0].map(|sign| self.results(signature, &command, &cycle, sign));
         let ((numbers, status), (others, other)) = (least?, most?);
         // Numbers of a ten-thousandth of the largest correction: rounding errors and the tolerances

@@ -7,7 +7,7 @@ use abbe_core::function::{Array, COMMANDS, COMPENSATED, Signature};
 use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
-use super::commands::{Call, Commands, SCALES};
+use super::commands::{Call, Commands};
 use super::expected::{Sums, expected};
 use super::procedures::CPrinter;
 use super::real::Real;
@@ -168,7 +168,7 @@ impl CPrinter<'_> {
         list("int", "calls", calls.iter().map(|call| call.number.to_string()).collect());
         let is_cycle = *signature == COMPENSATED;
         if is_cycle {
-            list(real.name(), "scales", numbers(&mut SCALES.into_iter()));
+            list(real.name(), "scales", numbers(&mut commands.scales().into_iter().flatten()));
         }
         list(real.name(), "expected", numbers(&mut sums().map(|[sum, _]| *sum)));
         list(real.name(), "tolerances", numbers(&mut sums().map(|[_, tolerance]| upwards(*tolerance))));
@@ -209,7 +209,7 @@ impl CPrinter<'_> {
             ("NAME", name.to_string()),
         ];
         let text = text.iter().fold(real.text(CASES), |text, (word, with)| text.replace(word, with));
-        let of_cycles = ["first[", "change[", "largest["];
+        let of_cycles = ["first[", "scale", "change[", "largest["];
         let lines = text.lines().filter(|line| is_cycle || !of_cycles.iter().any(|name| line.contains(name)));
         lines.for_each(|line| self.writer.lines(line));
         self.writer.close("}");
