@@ -53,7 +53,7 @@ mod samples;
 mod tests;
 
 pub use batches::{Batch, batches, evaluations, sweeps};
-pub use contract::{contract, pose};
+pub use contract::{contract, inverse, pose};
 pub use derivatives::{error_jacobian, joint_jacobian, parameter_jacobian, source_displacements};
 pub use failure::{Configuration, Discrepancy, Failure};
 pub use remainder::{Slope, remainder_slope};
@@ -78,6 +78,7 @@ pub fn all(manipulator: &dyn Sweepable, samples: usize) -> Result<(), Failure> {
     joint_jacobian(manipulator, samples)?.within("joint Jacobian", DERIVATIVE_TOLERANCE)?;
     parameter_jacobian(manipulator, samples)?.within("parameter Jacobian", DERIVATIVE_TOLERANCE)?;
     source_displacements(manipulator, samples)?.within("sources", DERIVATIVE_TOLERANCE)?;
+    inverse(manipulator, samples)?.within("inverse", ROUNDING_TOLERANCE)?;
     remainder_slope(manipulator, samples)?.within(SLOPE_TOLERANCE)
 }
 
@@ -114,6 +115,7 @@ macro_rules! test_manipulator {
                 error_jacobian_is_the_derivative_of_the_exact_chain = error_jacobian, "error Jacobian", DERIVATIVE_TOLERANCE;
                 joint_jacobian_is_the_derivative_of_the_pose = joint_jacobian, "joint Jacobian", DERIVATIVE_TOLERANCE;
                 parameter_jacobian_is_the_derivative_of_the_pose = parameter_jacobian, "parameter Jacobian", DERIVATIVE_TOLERANCE;
+                solutions_of_the_inverse_reach_their_poses = inverse, "inverse", ROUNDING_TOLERANCE;
                 sources_are_the_derivatives_of_the_exact_chain = source_displacements, "sources", DERIVATIVE_TOLERANCE;
             }
 

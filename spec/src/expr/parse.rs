@@ -17,6 +17,7 @@ use super::build::{Builder, FUNCTIONS_OF_TWO};
 use super::function::FUNCTION_NAMES;
 use super::scope::Allowed;
 use super::tokens::{Token, tokens};
+use super::unit::unit_help;
 use super::{Binary, Dimension, Entry, Expression, Function, LocatedText, Scope, TextLocation, Unit};
 use crate::diagnostic::{Diagnostic, Span, suggestion};
 

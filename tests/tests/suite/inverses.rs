@@ -6,7 +6,7 @@ use std::fmt::Write;
 use abbe::analysis::sampling::{halton, nominal_parameters};
 use abbe::analysis::{InverseKinematics, Target, inverse};
 use abbe::lanes::{Evaluate, InstructionSet, Inverse, Tiles};
-use abbe::{Error, Function, Manipulator, Orientation, Pose, Quantity, VariableKind, deviation};
+use abbe::{Error, Function, Manipulator, Orientation, Pose, Quantity, VariableKind, deviation, laws};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, pps, puma560, stanford, ur5};
 use abbe_spec::Spec;
@@ -186,6 +186,54 @@ fn generated(robot: &impl Evaluate<Inverse>) {
         worst[0], worst[1]
     );
     assert!(worst[0] < 2e-12 && worst[1] < 1e-6, "{name}: {worst:?}");
+}
+
+/// Robot with wrong results of `inverse`.
+struct Wrong(&'static dyn Manipulator, fn(&mut [f64], &mut [f64]));
+
+impl Manipulator for Wrong {
+    fn description(&self) -> &abbe::Description {
+        self.0.description()
+    }
+
+    fn evaluate(
+        &self,
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
+    ) -> Result<(), Error> {
+        self.0.evaluate(function, arguments, results)?;
+        if let (Function::Inverse, [solutions, found]) = (function, results) {
+            self.1(solutions, found);
+        }
+        Ok(())
+    }
+}
+
+/// `test_manipulator!` finds solutions that miss by 1e-7 of a joint, in a single joint, and missing
+/// ones.
+#[test]
+fn the_law_of_inverses_holds_and_finds_wrong_solutions() {
+    for name in ["puma560", "ur5", "stanford", "pps"] {
+        let robot = shipped(name);
+        let found = laws::inverse(robot, laws::SAMPLES).unwrap();
+        println!("{name}: {:e}", found.relative);
+        found.within("inverse", laws::ROUNDING_TOLERANCE).unwrap();
+        let wrong: [fn(&mut [f64], &mut [f64]); 4] = [
+            |solutions, _| solutions.iter_mut().step_by(6).for_each(|q| *q += 1e-7),
+            |solutions, _| solutions.iter_mut().skip(5).step_by(6).for_each(|q| *q -= 1e-7),
+            |solutions, _| solutions.chunks_exact_mut(6).for_each(|q| q.swap(3, 4)),
+            |_, found| found.fill(0.0),
+        ];
+        for change in wrong {
+            let law = laws::inverse(&Wrong(robot, change), 20)
+                .and_then(|found| found.within("inverse", laws::ROUNDING_TOLERANCE));
+            assert!(law.is_err(), "{name}");
+        }
+    }
+    for name in ["iiwa", "scara"] {
+        assert_eq!(laws::inverse(shipped(name), 20).unwrap().compared, 0);
+    }
 }
 
 /// Without a closed form, the solutions are those of searches.

@@ -17,6 +17,37 @@ pub fn pose(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy
     Ok(discrepancy)
 }
 
+/// Compares the poses of all solutions of `inverse`, from another configuration, with the pose that
+/// they are for. At least one exists. Compares nothing for loops, whose solutions may belong to
+/// another assembly mode, and without a closed form.
+pub fn inverse(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
+    let subject = Subject::new(manipulator)?;
+    let description = manipulator.description();
+    let (rows, joints) = (description.solutions, description.variables.len());
+    if rows == 0 || description.has_loops() {
+        return Ok(Discrepancy::default());
+    }
+    let (samples, skipped) = subject.samples(samples)?;
+    let mut discrepancy = Discrepancy { compared: samples.len(), skipped, ..Default::default() };
+    let (mut solutions, mut found) = (vec![0.0; rows * joints], vec![0.0; rows]);
+    for (at, other) in samples.iter().zip(samples.iter().skip(1).chain(&samples)) {
+        let failed = |error| Failure::Evaluation { at: at.given.clone(), error };
+        let Configuration { s, .. } = &at.given;
+        manipulator.inverse(&other.given.q, s, &at.pose, &mut solutions, &mut found).map_err(failed)?;
+        let reached = solutions.chunks_exact(joints).zip(&found).filter(|(_, found)| **found > 0.0);
+        let mut count = 0;
+        for (row, _) in reached {
+            let pose = manipulator.pose(row, s).map_err(failed)?;
+            discrepancy.add(difference(&subject, &pose, &at.pose), &at.given);
+            count += 1;
+        }
+        if count == 0 {
+            discrepancy.add(f64::INFINITY, &at.given);
+        }
+    }
+    Ok(discrepancy)
+}
+
 /// Checks that every output is finite, that ε is the sum of the repeatable effects, and that NaN
 /// and slices of the wrong length are refused. The discrepancy is that of ε.
 pub fn contract(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
