@@ -28,7 +28,7 @@ pub(crate) struct Generate {
     #[arg(value_hint = ValueHint::FilePath)]
     spec: OsString,
     /// Language of the generated code
-    #[arg(long, value_parser = named(generate::Generate::LANGUAGES), default_value = Language::Rust.name())]
+    #[arg(long, ignore_case = true, value_parser = named(generate::Generate::LANGUAGES), default_value = Language::Rust.name())]
     lang: Language,
     /// Floating-point type of the generated C: `float` for processors with single precision only.
     /// [default: double]

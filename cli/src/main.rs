@@ -41,6 +41,7 @@ use std::process::ExitCode;
 use abbe_report::text::at_width;
 use clap::{CommandFactory, Parser, Subcommand};
 
+use arguments::with_tip;
 use console::Console;
 use failure::{Failure, Result};
 use output::{Outcome, Outputs};
@@ -137,7 +138,7 @@ fn main() -> ExitCode {
     interrupt::clean_up_on_signals();
     abbe_study::set_version(env!("ABBE_VERSION"));
     let result = Arguments::try_parse().map_or_else(
-        |usage| output::print_usage(&usage),
+        |usage| output::print_usage(&with_tip(usage, &Arguments::command())),
         |arguments| {
             console::watch();
             let result = at_width(console::width(), || run(&arguments));

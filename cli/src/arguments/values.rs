@@ -26,7 +26,8 @@ where
         "" => PossibleValue::new(*name),
         help => PossibleValue::new(*name).help(help),
     });
-    PossibleValuesParser::new(possible).try_map(move |name| choices.find(&name).ok_or("no such value"))
+    let find = move |name: String| choices.find(&name.to_lowercase()).ok_or("no such value");
+    PossibleValuesParser::new(possible).try_map(find)
 }
 
 pub(crate) fn duration(text: &str) -> Result<Duration, String> {

@@ -84,6 +84,20 @@ fn usage() {
         &["invalid value 'half'", "double, float"],
     );
     refused(&["analyze", "pps", "--outt", "x"], &["--out"]);
+    // Ways out that are right: no `-- --tolerance`.
+    refused(&["check", "pps", "--tolerance", "1mm"], &["--tolerance is an option of `abbe analyze`"]);
+    refused(&["allocate", "pps", "--tolerance", "0.4", "mm"], &["in quotes: `0.4mm`"]);
+    refused(&["jacobian", "pps", "q4=70"], &["are given by --q"]);
+    refused(
+        &["measure", "ur5", "rows.csv"],
+        &["--map <FILE>", "`abbe doctor SPEC DATA -o map.toml` proposes a map"],
+    );
+    refused(&["analyze", "pps", "--tolerance", "0,3mm"], &["write a decimal point: `0.3`"]);
+    let unknown = abbe(&["generate", "pps", "--zzz"]).stderr;
+    assert!(unknown.contains("unexpected argument '--zzz'") && !unknown.contains("-- --zzz"), "{unknown}");
+    for lang in ["PYTHON", "JS"] {
+        assert_eq!(abbe(&["generate", "pps", "--lang", lang, "--only", "pose"]).status, 0);
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 
 use abbe::Manipulator;
+use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_manipulators::machine3::{DESCRIPTION, EFFECTS, ERRORS, FRAMES, Inputs, Machine3, Parameters};
 use abbe_spec::Spec;
@@ -106,4 +107,37 @@ fn errors_of_axes_have_the_names_of_iso_230() {
     let machine = Machine::of_spec(Spec::parse("table.toml", &text).unwrap(), "table");
     let turned = ("C".to_owned(), true, "-EXC -EYC -EZC -EBC -ECC -EAC".to_owned());
     assert_eq!(named(machine), [&[turned][..], &slides].concat());
+}
+
+/// Returns the tool point of `[w X' b Y t]` with the errors of X' that a spec states, `(x, y)`.
+fn tool_point(source: &str, [x, y]: [f64; 2]) -> [f64; 3] {
+    let text = format!(
+        "[manipulator]\nname = \"mill\"\nlength = \"mm\"\n\
+         [[frame]]\nname = \"X\"\nvariable = {{ name = \"x\", kind = \"prismatic\", limits = [0, 600] }}\ntransform = \"Tx(x)\"\n\
+         [[frame]]\nname = \"Y\"\nvariable = {{ name = \"y\", kind = \"prismatic\", limits = [0, 400] }}\ntransform = \"Ty(y)\"\n\
+         [tool]\ntransform = \"Tz(-150)\"\n\
+         [[source]]\nname = \"table\"\nclass = \"repeatable\"\nframe = \"X\"\n{source}\n"
+    );
+    let mill = Interpreter::new(Spec::parse("mill.toml", &text).unwrap());
+    *mill.real_pose(&[x, y], &[], &[]).unwrap().position()
+}
+
+/// An axis that carries the workpiece: what a laser between table and spindle reads is written as
+/// it is, what the bed sees of the table with the opposite sign, where it turns.
+#[test]
+fn errors_of_a_table_have_the_signs_of_the_chapter() {
+    for [x, y] in [[0.0, 0.0], [300.0, 100.0], [580.0, 390.0]] {
+        // The table, seen from the bed, is 20 um too far and turned by 30 urad about its own origin.
+        let (far, turn) = (0.02 * x / 600.0, 3e-5 * x / 600.0);
+        // A point of the bed in the frame of the table: R(-turn) (p - origin).
+        let (px, py) = (x - far, y);
+        let [cx, cy] = [px * turn.cos() + py * turn.sin(), py * turn.cos() - px * turn.sin()];
+        let as_bed = "e_x = \"-0.02 mm*x/(600 mm)\"\ne_r = \"-3e-5*x/(600 mm)\"\nat = \"Tx(-x)\"";
+        let [fx, fy, _] = tool_point(as_bed, [x, y]);
+        assert!((fx - cx).abs() < 1e-6 && (fy - cy).abs() < 1e-6, "({fx}, {fy}), not ({cx}, {cy})");
+        // The laser reads the position of the spindle on the table, and its deviation from x.
+        let deviation = px - x;
+        let read = format!("e_x = \"{deviation:?} mm\"");
+        assert!((tool_point(&read, [x, y])[0] - px).abs() < 1e-12);
+    }
 }

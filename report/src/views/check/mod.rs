@@ -250,8 +250,9 @@ fn iso_axes(report: &Report) -> Section {
         [axis.name.clone(), carried.to_owned(), x, y, z, s, r, p]
     });
     let columns = ["frame", "carries", "e_x", "e_y", "e_z", "e_s", "e_r", "e_p"];
-    let slides = "Slides are taken to carry the tool, which a spec does not say: the errors of a slide that \
-                  carries the workpiece have the opposite signs.";
+    let slides = "Slides are taken to carry the tool, which a spec does not say. The errors of a frame are those of the \
+                  tool as the workpiece sees it: errors of a slide that carries the workpiece, as the bed sees them, have \
+                  the opposite signs.";
     let section = Section::full("Errors of the axes by ISO 230-1").table(Table::new("", columns).rows(rows));
     if report.iso_axes.is_empty() {
         return section;
