@@ -49,11 +49,13 @@ pub struct Document {
 }
 
 impl Document {
-    /// Creates a document from text.
+    /// Creates a document from text. Lines may end as on old computers: by a carriage return alone.
     pub fn new(path: impl Display, text: impl Into<Arc<str>>) -> Self {
+        let text: Arc<str> = text.into();
+        let is_old = text.contains('\r') && !text.contains('\n');
         Self {
             path: path.to_string(),
-            text: text.into(),
+            text: if is_old { text.replace('\r', "\n").into() } else { text },
             length: LengthUnit::Metre,
             found: RefCell::default(),
             folder: None,

@@ -102,7 +102,7 @@ impl Chain {
         self.frames.iter().fold(Isometry3::identity(), frame) * self.tool.motion()
     }
 
-    /// Returns configuration `k` of those at which chains are compared, which fill the limits evenly.
+    /// Returns configuration `k` of those at which chains are compared. They fill the limits evenly.
     pub(crate) fn sample(&self, k: usize) -> Vec<f64> {
         let value = |(v, variable): (usize, &Variable)| {
             let [lower, upper] = variable.limits.unwrap_or([-PI, PI]);
@@ -247,8 +247,8 @@ impl AngleRounding {
         if self.round { multiple } else { angle }
     }
 
-    /// Notes the number of such angles, and the largest change; and those that are further off, with
-    /// the `shift` of the tool point in mm that multiples in their place would cause.
+    /// Notes the number of such angles and the largest change. Warns about those further off, with
+    /// the `shift` of the tool point in mm that multiples would cause.
     pub fn note(&self, shift: f64, notes: &mut dyn Notes) {
         let Self { round, count, farthest, near, .. } = self;
         if !near.is_empty() {

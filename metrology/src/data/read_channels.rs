@@ -169,7 +169,7 @@ pub(super) fn columns<const N: usize>(section: &Section<'_>, key: &str) -> Optio
 /// Words for one step of an encoder or a motor, whose size only the user knows.
 const COUNTS: [&str; 8] = ["count", "cnt", "inc", "increment", "pulse", "step", "tick", "digit"];
 
-/// Reads `unit`, a text such as "deg" or, for counts, "360 deg/4096", as a factor to coherent units.
+/// Reads `unit`, a text such as "deg" or "360 deg/4096", as a factor to coherent units.
 pub(super) fn unit(section: &Section<'_>, dimension: Dimension) -> Option<f64> {
     let item = section.required("unit")?;
     let name = item.string()?;

@@ -28,8 +28,8 @@ pub struct Export {
 }
 
 impl Export {
-    /// Writes the files as text, reads them back and compares the poses of the tool. Files that would
-    /// make its error larger are an error.
+    /// Writes the files as text, reads them back and compares the poses of the tool. A table of
+    /// corrections that makes its error larger is an error.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Self { machine: Machine { spec, origin, .. }, format, samples, seed } = self;
         if !matches!(format, Format::UrdfTree | Format::LinuxCncGenhexkins) {
@@ -51,14 +51,14 @@ impl Export {
                 "the file would make the error of the tool larger: {remains} {unit} (rms) instead of {before} {unit}",
                 unit = report.length
             );
-            let help = match format {
-                Format::Table { .. } => {
-                    format!("give the table more nodes by `{NODES}`, or narrow the `limits` of the joints")
-                }
-                _ => "correct commands by `abbe compensate`, or in the controller by code of `abbe generate`"
-                    .to_owned(),
-            };
-            return Err(mistake::with_help(origin, message, help));
+            if let Format::Table { .. } = format {
+                let help =
+                    format!("give the table more nodes by `{NODES}`, or narrow the `limits` of the joints");
+                return Err(mistake::with_help(origin, message, help));
+            }
+            notes.warn(&format!(
+                "{message}; correct commands by `abbe compensate`, or in the controller by code of `abbe generate`"
+            ));
         }
         finite(origin, report)
     }

@@ -45,7 +45,7 @@ pub(super) struct Parser {
     tokens: Vec<Token>,
     at: usize,
     pub(super) units: Vec<Unit>,
-    /// Types of arrays, which all have names: to some compilers every other one is a type of its own.
+    /// Types of arrays, which all have names: some compilers take each other one for a new type.
     arrays: HashMap<String, Type>,
 }
 

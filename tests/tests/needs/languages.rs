@@ -30,6 +30,8 @@ pub(crate) const TESTS: Tests = &[
     ("javascript", (|| in_all(Language::JavaScript, 1000))),
     ("python", (|| in_all(Language::Python, 1000))),
     ("octave", (|| in_all(Language::Matlab, 20))),
+    ("types_of_javascript", types_of_javascript),
+    ("refusals_of_javascript", refusals_of_javascript),
     ("mutants_in_javascript", (|| mutants_of(Language::JavaScript))),
     ("mutants_in_python", (|| mutants_of(Language::Python))),
     ("mutants_in_octave", (|| mutants_of(Language::Matlab))),
@@ -64,6 +66,104 @@ fn in_all(language: Language, usual: usize) -> Result<(), Missing> {
     }
     assert_open_loops_are_nan(language, &command);
     assert_equal(language, &command, Spec::parse("names.toml", NAMES).unwrap(), few);
+    Ok(())
+}
+
+/// TypeScript reads the types of arguments and results from the comments, and refuses others.
+fn types_of_javascript() -> Result<(), Missing> {
+    let modules = std::env::var("NODE_PATH").unwrap_or_default();
+    let compiler = Path::new(&modules).join(".bin/tsc");
+    tool(&compiler.display().to_string(), "")?;
+    let folder = tempfile::tempdir().unwrap();
+    for shipped in SHIPPED.iter().filter(|shipped| is_tested(shipped.name)) {
+        let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec).unwrap();
+        fs::write(folder.path().join("machine.js"), Language::JavaScript.files(&spec).remove(0).text)
+            .unwrap();
+        let compiles = |line: &str| {
+            let text = format!(
+                "import {{ compensated, error_jacobian, pose, description }} from './machine.js';\n\
+                 const [q, s, u] = [description.variables, description.parameters, description.inputs].map((list) => new Float64Array(list.length));\n\
+                 {line}\n"
+            );
+            fs::write(folder.path().join("user.ts"), text).unwrap();
+            let mut run = Command::new(&compiler);
+            run.args(["--strict", "--noEmit", "--allowJs", "--checkJs", "false", "--target", "es2020"]);
+            run.args(["--module", "es2020", "--moduleResolution", "bundler", "user.ts"])
+                .current_dir(folder.path());
+            let output = run.output().unwrap();
+            (output.status.success(), String::from_utf8_lossy(&output.stdout).into_owned())
+        };
+        for right in [
+            "const tool: Float64Array = pose(q, s); tool[9].toFixed();",
+            "const { columns }: { columns: Float64Array } = error_jacobian(q, s); columns.length;",
+            "const { corrected, status } = compensated(q, s, u); corrected[0] * status;",
+            "compensated(q, s, u, q, q, q, new Float64Array(3)).after.length;",
+        ] {
+            let (compiles, said) = compiles(right);
+            assert!(compiles, "{}: {right}: {said}", spec.name);
+        }
+        for wrong in [
+            "pose(q);",
+            "pose('q', s);",
+            "pose(q, s).columns;",
+            "const status: string = compensated(q, s, u).status;",
+            "compensated(q, s, u).corected;",
+        ] {
+            assert!(!compiles(wrong).0, "{}: {wrong}", spec.name);
+        }
+    }
+    Ok(())
+}
+
+/// Every function of JavaScript refuses arguments of another length, numbers that are not finite
+/// and inputs outside their ranges.
+fn refusals_of_javascript() -> Result<(), Missing> {
+    tool("node", "")?;
+    let folder = tempfile::tempdir().unwrap();
+    let spec = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap();
+    let spec = Spec::parse("pps.toml", spec.spec).unwrap();
+    fs::write(folder.path().join("pps.mjs"), Language::JavaScript.files(&spec).remove(0).text).unwrap();
+    let robot = Interpreter::new(spec);
+    let exported = Function::all(robot.description()).map(Function::signature).chain(COMMANDS);
+    let functions: BTreeMap<&str, Vec<(&str, usize)>> = exported
+        .map(|signature| {
+            let given = signature
+                .arguments
+                .iter()
+                .filter(|array| !matches!(array.name, "last" | "change" | "largest"));
+            (signature.name, given.map(|array| (array.name, array.len(robot.description()))).collect())
+        })
+        .collect();
+    let script = format!(
+        "import * as pps from './pps.mjs';\n\
+         const nominal = {{ q: pps.description.variables.map((one) => one.home), s: pps.description.parameters.map((one) => one.nominal), \
+         u: pps.description.inputs.map((one) => one.nominal), rotations: [1, 1, 1] }};\n\
+         let count = 0;\n\
+         for (const [name, given] of Object.entries({})) {{\n\
+             const order = pps[name].length && given;\n\
+             const right = order.map(([own, len]) => Float64Array.from(nominal[own] ?? Array(len).fill(0.5)));\n\
+             const call = (list) => name === 'compensated' ? pps[name](...list.slice(0, 3), undefined, undefined, undefined, list[3]) : pps[name](...list);\n\
+             call(right);\n\
+             right.forEach((array, k) => {{\n\
+                 const changed = (edit) => right.map((own, i) => (i === k ? edit(own) : own));\n\
+                 const wrong = [(own) => own.slice(1), () => undefined, (own) => own.map(() => NaN), (own) => own.map(() => Infinity)];\n\
+                 if (given[k][0] === 'u') wrong.push((own) => own.map(() => -1e9));\n\
+                 for (const edit of wrong) {{\n\
+                     if (given[k][0] === 'rotations' && edit(array) === undefined) continue;\n\
+                     try {{ call(changed(edit)); }} catch (error) {{ if (error instanceof RangeError) {{ count++; continue; }} }}\n\
+                     throw new Error(`${{name}} takes a wrong ${{given[k][0]}}`);\n\
+                 }}\n\
+             }});\n\
+         }}\n\
+         console.log(count);\n",
+        json!(functions)
+    );
+    fs::write(folder.path().join("run.mjs"), script).unwrap();
+    let output = Command::new("node").arg("run.mjs").current_dir(folder.path()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let count: usize = String::from_utf8_lossy(&output.stdout).trim().parse().unwrap();
+    println!("{count} wrong arguments in {} functions", functions.len());
+    assert!(count > 8 * functions.len(), "{count}");
     Ok(())
 }
 

@@ -135,3 +135,13 @@ fn a_hundred_frames_are_fine() {
     }
     assert_eq!(Spec::parse("long.toml", &text).unwrap().frames.len(), 100);
 }
+
+/// Files of old computers, whose lines end by a carriage return alone, have lines.
+#[test]
+fn mistakes_have_their_lines_whatever_ends_these() {
+    let text = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"a\"\nvariable = { name = \"q\", kind = \"hinge\" }\n";
+    for end in ["\n", "\r\n", "\r"] {
+        let mistakes = Spec::parse("arm.toml", &text.replace('\n', end)).unwrap_err().to_string();
+        assert!(mistakes.contains("arm.toml:6:"), "{end:?}: {mistakes}");
+    }
+}

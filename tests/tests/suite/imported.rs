@@ -255,7 +255,7 @@ fn robot(second: &str, behind: &str) -> String {
     format!("<robot name=\"r\">\n{links}{}{behind}</robot>\n", joints.concat())
 }
 
-/// What stands beside the chain never keeps it from being read, and one note names it.
+/// Checks that what stands beside the chain never keeps it from being read, and has one note.
 #[test]
 fn faults_beside_the_chain_are_noted() {
     let (expected, notes) = with_notes(&robot("", ""), None, false).unwrap();
@@ -295,7 +295,7 @@ fn faults_beside_the_chain_are_noted() {
     }
 }
 
-/// The same faults on the chain are mistakes.
+/// Checks that the same faults on the chain are mistakes.
 #[test]
 fn faults_of_the_chain_are_mistakes() {
     for (from, to, part) in [
@@ -333,7 +333,7 @@ fn limits_beyond_two_turns_are_questioned() {
     }
 }
 
-/// Angles of few digits that are near a multiple of 45° are named with what exact ones would change.
+/// Checks that angles of few digits near a multiple of 45° are named, with their effect.
 #[test]
 fn angles_of_few_digits_are_named() {
     let tipped = |rpy: &str, round| {

@@ -127,7 +127,7 @@ fn tool_point(source: &str, [x, y]: [f64; 2]) -> [f64; 3] {
 #[test]
 fn errors_of_a_table_have_the_signs_of_the_chapter() {
     for [x, y] in [[0.0, 0.0], [300.0, 100.0], [580.0, 390.0]] {
-        // The table, seen from the bed, is 20 um too far and turned by 30 urad about its own origin.
+        // Seen from the bed, the table is 20 um too far and turned by 30 urad about its origin.
         let (far, turn) = (0.02 * x / 600.0, 3e-5 * x / 600.0);
         // A point of the bed in the frame of the table: R(-turn) (p - origin).
         let (px, py) = (x - far, y);

@@ -17,8 +17,9 @@ const FREE: usize = 2;
 /// Largest number of joints that are tried beyond each of their limits.
 const JOINTS: usize = 8;
 
-/// Shares of the change by default, then of the largest correction; the first holds nothing. In
-/// single precision, the joints that the size of a correction holds depend on rounding.
+/// Shares of the change by default, then of the largest correction; the first holds nothing. Single
+/// precision is damped more where some joints are held, so that its results are others there: one
+/// share holds all joints, at one configuration, and no size does.
 const SCALES: [[f64; 8]; 2] =
     [[1e3, 0.25, 1.0, 0.5, 1e3, 0.1, 0.02, 1.0], [1e3, 1e3, 0.03, 1.0, 0.1, 1e3, 0.3, 0.01]];
 
@@ -48,8 +49,8 @@ impl<'m> Commands<'m> {
         Self { description, given, functions: functions.map(|one| Computed::new(one, model)), real }
     }
 
-    /// Returns the numbers of the calls: those at one configuration, one anywhere for each joint, and
-    /// those with each joint below its lower and above its upper limit.
+    /// Returns the ends of the numbers of calls: at one configuration, one anywhere for each joint,
+    /// with each joint below its lower and with each above its upper limit.
     pub(super) fn ends(&self) -> [usize; 4] {
         let joints = self.description.variables.len().min(JOINTS);
         [AT_ONE, AT_ONE + joints, AT_ONE + 2 * joints, AT_ONE + 3 * joints]
@@ -86,7 +87,23 @@ impl<'m> Commands<'m> {
             if is_there { self.given[0].1[j] } else { lower + nearest(nearest(share) * span) }
         });
         let bounds = |of: usize, bounds| {
-            let share = |j: usize| nearest(self.scales()[of][if k < FREE { 0 } else { (k + 3 * j) % 8 }]);
+            let at = |j: usize| match self.real {
+                Real::Float => {
+                    if k < AT_ONE {
+                        k % 4
+                    } else {
+                        0
+                    }
+                }
+                Real::Double => {
+                    if k < FREE {
+                        0
+                    } else {
+                        (k + 3 * j) % 8
+                    }
+                }
+            };
+            let share = |j: usize| nearest(self.scales()[of][at(j)]);
             each(&|j, one| share(j) * nearest(bound(self.description, one.kind, bounds)))
         };
         let last = each(&|j, one| {

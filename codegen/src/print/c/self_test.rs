@@ -204,6 +204,10 @@ impl CPrinter<'_> {
             ("GIVEN", arguments.join(", ")),
             ("SUMS", results.enumerate().map(is_wrong).collect()),
             ("NUMBER", number.to_string()),
+            (
+                "WHICH",
+                ["(k < 2) ? 0 : ((k + (3 * j)) % 8)", "(k < 8) ? (k % 4) : 0"][real as usize].to_owned(),
+            ),
             ("UPPER", name.to_ascii_uppercase()),
             ("FUNCTION", signature.name.to_owned()),
             ("NAME", name.to_string()),

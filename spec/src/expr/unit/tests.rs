@@ -66,7 +66,7 @@ fn every_name_has_a_unit() {
     }
 }
 
-/// What a hint says to write for a spelling has the size that was meant.
+/// Checks that a hint for a spelling has the size that was meant.
 #[test]
 fn hints_have_the_size_that_was_meant() {
     let inch = 0.0254;

@@ -55,7 +55,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("pose : pps_array_12;", "pose : pps_array_12", "expected ;"),
     ("pose : pps_array_12;", "pose : pps_none;", "PPS_NONE is no type"),
     ("pose : pps_array_12;", "pose : pps_array_13;", "expected"),
-    // MATIEC takes each type without a name for another one, reads numbers as REAL, and skips the loop.
+    // MATIEC takes types without names for different ones, reads REALs, and skips the loop.
     ("pose : pps_array_12;", "pose : ARRAY[0..11] OF LREAL;", "ARRAY is no type"),
     ("d1 := q[0];", "d1 := LREAL#1.0E300;", "not a number of LREAL"),
     ("d1 := q[0];", "d1 := LREAL#1.0E-300;", "not a number of LREAL"),
