@@ -5,8 +5,7 @@ use abbe_core::{Component, Orientation};
 use abbe_spec::Spec;
 use abbe_spec::expr::{Motion, motion};
 
-use super::local::Local;
-use super::rows::Rows;
+use super::{Local, Rows};
 use crate::graph::{Frame, Graph, Node, Vector};
 
 /// The chain as local motions.

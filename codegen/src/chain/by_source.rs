@@ -2,9 +2,7 @@
 
 use abbe_spec::Spec;
 
-use super::EffectNode;
-use super::accumulate::{Displacement, Links};
-use super::rows::Rows;
+use super::{Displacement, EffectNode, Links, Rows};
 use crate::graph::{Graph, Node};
 
 /// Returns `ΔX = J_e ε`, accumulated along the chain.

@@ -1,8 +1,6 @@
 //! Computes `J_e diag(σ²) J_eᵀ` without `J_e`.
 
-use super::accumulate::{Accumulated, vectors};
-use super::local::Local;
-use super::rows::Rows;
+use super::{Accumulated, Local, Rows, vectors};
 use crate::graph::{Graph, Node, Vector, transposed};
 
 type Matrix = [Vector; 3];

@@ -10,10 +10,8 @@
 use abbe_spec::expr::{Elementary, Function, Motion, Symbol};
 use abbe_spec::{ChainNumber, Factor, Spec};
 
-use super::frame_twist::FrameTwist;
-use super::local::Local;
 use super::symbol_jacobian::{Steps, twist};
-use super::tree;
+use super::{FrameTwist, Local, tree};
 use crate::graph::{Graph, Node, Op, Vector};
 
 /// Returns the twist of every frame that depends on a number of the chain. The tool's twist is

@@ -9,10 +9,9 @@ use abbe_core::Component;
 use abbe_spec::expr::{Function, Motion, Symbol, motion};
 use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
 
-use super::accumulate::{six, vectors};
 use super::deviation::transform_twists;
 use super::tree::{Parts, Reaction, length_slopes};
-use super::walk::transform;
+use super::{six, transform, vectors};
 use crate::graph::{Frame, Graph, Node, Vector};
 
 /// Six errors per unit of force and moment, both in the order of ε.

@@ -31,11 +31,9 @@ use abbe_spec::Spec;
 use abbe_spec::expr::{Symbol, motion};
 use indexmap::IndexMap;
 
-use super::accumulate::{Accumulated, Displacement, Links, vectors};
 use super::deviation::local_twist;
-use super::error_jacobian::Columns;
-use super::local::Local;
 use super::symbol_jacobian::{Steps, twist};
+use super::{Accumulated, Columns, Displacement, Links, Local, vectors};
 use crate::graph::{Frame, Graph, Node, Vector};
 
 /// Number of frames, counted from `F_0`, whose axes are considered for all other frames.

@@ -15,7 +15,7 @@
 use abbe_core::Component;
 use abbe_spec::expr::{Motion, motion};
 
-use super::rows::Rows;
+use super::Rows;
 use super::walk::Step;
 use crate::graph::{Frame, Graph, Node, Vector};
 

@@ -7,10 +7,8 @@
 use abbe_core::VariableKind;
 use abbe_spec::{ChainNumber, Spec};
 
-use super::accumulate::{Accumulated, Displacement, Links, six};
-use super::deviation::frame_twists;
-use super::local::Local;
 use super::minors::solve;
+use super::{Accumulated, Displacement, Links, Local, frame_twists, six};
 use crate::graph::{Graph, Node, Vector};
 
 /// Number of joints that control the full pose. With fewer, only the tool point is considered.

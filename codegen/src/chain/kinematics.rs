@@ -4,7 +4,7 @@ use abbe_core::Class;
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::rows::Rows;
+use super::Rows;
 use crate::graph::{Frame, Graph, Node, Vector};
 
 /// Kinematics of frames, from which all nodes are built in the order of the methods.

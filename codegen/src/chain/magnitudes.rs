@@ -9,12 +9,9 @@ use abbe_core::Orientation;
 use abbe_spec::Spec;
 use abbe_spec::expr::{Function, Symbol};
 
-use super::accumulate::{Displacement, Links, vectors};
 use super::by_source::errors_by_source;
-use super::implicit::Implicit;
-use super::rows::Rows;
-use super::sources;
 use super::tree::Parts;
+use super::{Displacement, Implicit, Links, Rows, sources, vectors};
 use crate::graph::{Graph, Node, Vector};
 
 /// Magnitude of an error of the tool point.

@@ -16,10 +16,8 @@ use abbe_core::Component;
 use abbe_spec::expr::{Expression, Motion, Symbol, motion};
 use abbe_spec::{ChainNumber, Factor, Spec};
 
-use super::accumulate::Links;
-use super::local::Local;
-use super::sources::Causes;
-use super::walk::{apply_with, transform, walk};
+use super::walk::{apply_with, walk};
+use super::{Causes, Links, Local, transform};
 use crate::graph::{Frame, Graph, Node, Vector, in_programs};
 
 /// The chain with the errors of all sources, each times its magnitude.

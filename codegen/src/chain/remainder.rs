@@ -3,12 +3,9 @@
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::implicit::Implicit;
 use super::kinematics::of_repeatable;
-use super::magnitudes::Magnitude;
-use super::real::RealChain;
-use super::sources;
 use super::tree::curvature;
+use super::{Implicit, Magnitude, RealChain, sources};
 use crate::graph::Graph;
 
 /// Remainder of the tool point's position after `J_e ε` of the repeatable sources.

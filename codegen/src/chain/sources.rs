@@ -7,11 +7,8 @@ use abbe_core::{Class, Component};
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Cause, ChainNumber, Deviation, DeviationCause, Effect, Identified, Source, Spec, Uncertain};
 
-use super::accumulate::{six, vectors};
-use super::deviation::frame_twists;
-use super::elastic::{Element, Loads};
-use super::frame_twist::FrameTwist;
-use super::walk::{transform, walk};
+use super::walk::walk;
+use super::{Element, FrameTwist, Loads, frame_twists, six, transform, vectors};
 use crate::graph::{Frame, Graph, Node};
 
 /// One generalized error that a source causes.

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 
 use abbe_spec::expr::{Function, Lookup};
 
-use super::names::Identifiers;
+use super::Identifiers;
 use crate::program::{Action, ArrayRows, Repeated, Row};
 
 /// Precedence of the outermost operator of an expression.

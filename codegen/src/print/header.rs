@@ -4,7 +4,7 @@ use abbe_core::{Function, Orientation};
 use abbe_spec::expr::{Binary, Expression, Extrapolation, Function as Call, Interpolation, Kind, Term};
 use abbe_spec::{Closure, Factor, Loop, Spec};
 
-use super::layout::{Writer, escaped};
+use super::{Writer, escaped};
 use crate::program::{Block, Routine, Routines, Stage};
 
 /// Returns the names of rows 1–6.

@@ -8,9 +8,8 @@
 use abbe_core::function::{COMMANDS, Signature};
 use abbe_spec::Spec;
 
-use super::expression::{Binding, Expression, Value as Entry, infix};
-use super::flat::{Results, filled};
-use super::layout::Writer;
+use super::expression::Value as Entry;
+use super::{Binding, Expression, Results, Writer, filled, infix};
 use crate::procedure::{
     Binary, Condition, Counter, Index, Kind, Precision, Procedure, Statement, Unary, Value, Variable, Whole,
     compensated,

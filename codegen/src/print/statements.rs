@@ -8,9 +8,7 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
 use super::body::body;
-use super::expression::{Statement, Syntax, Value};
-use super::flat::Flat;
-use super::names::Names;
+use super::{Flat, Names, Statement, Syntax, Value};
 use crate::program::{ArrayRows, Block, Operand, Program, Role, Routine, Routines, Row, Stage};
 
 /// The statements of a routine.

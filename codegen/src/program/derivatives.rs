@@ -5,10 +5,8 @@ use abbe_core::function::Count;
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::Program;
-use super::outputs::results;
-use super::routine::{Array, Role, Routine};
 use super::routines::at_once;
+use super::{Array, Program, Role, Routine, results};
 use crate::chain::{Model, passive_by_symbol};
 use crate::graph::Node;
 

@@ -2,9 +2,7 @@
 
 use abbe_core::VariableKind;
 
-use super::angles::{Angle, Root, Rounding, angle_between, linear};
-use super::lines::{Line, Probes, reject};
-use super::partial::{Joint, Partial};
+use super::{Angle, Joint, Line, Partial, Probes, Root, Rounding, angle_between, linear, reject};
 use crate::graph::{Graph, Node, Vector};
 
 /// Axes of the first three joints, and a point that they move, with all joints at zero.

@@ -16,9 +16,7 @@ use abbe_core::VariableKind;
 use abbe_spec::expr::{Elementary, Expression, Function, Motion, Symbol};
 use abbe_spec::{Closure, Factor, Spec};
 
-use super::angles::{Angle, Rounding, linear};
-use super::lines::{Line, Probes, at_zero, line, reject};
-use super::partial::{Joint, Partial};
+use super::{Angle, Joint, Line, Partial, Probes, Rounding, at_zero, line, linear, reject};
 use crate::chain::lower_pairs;
 use crate::graph::{Frame, Graph, Node, Vector};
 

@@ -6,15 +6,10 @@ use abbe_spec::expr::Symbol;
 use super::chain::Chain;
 use super::machine::Machine;
 use super::names::{name, name_lengths};
-use super::{Jacobian, Model};
-use crate::chain::by_source;
-use crate::chain::elastic::Loads;
 use crate::chain::inverse::Inverse;
 use crate::chain::kinematics::{Kinematics, symbols};
-use crate::chain::rows::Rows;
-use crate::chain::sources::{self, Causes};
-use crate::chain::tree::{ClosedLoops, Parts};
-use crate::chain::walk::transform;
+use crate::chain::tree::Parts;
+use crate::chain::{Causes, ClosedLoops, Jacobian, Loads, Model, Rows, by_source, sources, transform};
 use crate::graph::{Graph, Node};
 use crate::procedure::Precision;
 

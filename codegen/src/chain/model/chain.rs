@@ -3,20 +3,14 @@
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::is_long;
 use super::machine::Machine;
-use crate::chain::accumulate::{Accumulated, Links};
-use crate::chain::by_source;
-use crate::chain::covariance::Covariance;
 use crate::chain::equivalent_forms::{EquivalentForms, equate_at_origin};
-use crate::chain::error_jacobian::{self, Columns, Moments};
+use crate::chain::error_jacobian::{self, Moments};
 use crate::chain::inverse::Inverse;
 use crate::chain::kinematics::{Kinematics, magnitudes, symbols};
-use crate::chain::real::RealChain;
-use crate::chain::rows::Rows;
-use crate::chain::sources::Causes;
 use crate::chain::symbol_jacobian::{Steps, local_twists, twist};
 use crate::chain::walk::{Step, walk};
+use crate::chain::{Accumulated, Causes, Columns, Covariance, Links, RealChain, Rows, by_source, is_long};
 use crate::graph::{Frame, Graph, Node, Vector};
 
 /// A chain of frames, from the base to the tool.

@@ -1,8 +1,7 @@
 //! The machine with its errors, as nodes of chains or trees of frames.
 
 use crate::chain::inverse::Inverse;
-use crate::chain::symbol_jacobian::LocalTwist;
-use crate::chain::tree::ClosedLoops;
+use crate::chain::{ClosedLoops, LocalTwist};
 use crate::graph::{Frame, Node};
 
 /// The machine with its errors, and what only chains or only trees have; see the fields of

@@ -10,9 +10,7 @@ mod names;
 use abbe_spec::Spec;
 
 use super::inverse::Inverse;
-use super::sources::EffectNode;
-use super::symbol_jacobian::LocalTwist;
-use super::tree::ClosedLoops;
+use super::{ClosedLoops, EffectNode, LocalTwist};
 use crate::graph::{Frame, Graph, Node};
 
 /// A Jacobian, or another matrix with the same six rows: columns, with rows 4–6 by the spec's

@@ -17,7 +17,7 @@ use abbe_spec::expr::Symbol;
 use abbe_spec::{Closure, Loop, Spec};
 
 use super::view::{Motion, View};
-use crate::chain::frame_twist::FrameTwist;
+use crate::chain::FrameTwist;
 use crate::graph::{Frame, Graph, Node, Vector, in_programs, transposed};
 
 /// Frames of a loop.

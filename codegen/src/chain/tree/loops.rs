@@ -13,15 +13,13 @@
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
+use super::Parts;
 use super::closure::{self, Ends};
 use super::factored::Factored;
-use super::parts::Parts;
 use super::system::LoopSystem;
 use super::units::{Units, at_home, passive_at_home};
-use crate::chain::implicit::Implicit;
 use crate::chain::kinematics::{magnitudes, of_repeatable};
-use crate::chain::real::RealChain;
-use crate::chain::sources::{Causes, PlacedErrors};
+use crate::chain::{Causes, Implicit, PlacedErrors, RealChain};
 use crate::graph::{Frame, Graph, Node, Vector};
 
 /// Nodes that close the loops. Passive variables are local symbols, from 0.

@@ -22,9 +22,8 @@ use super::closure::{self, Ends, Wrenches, wrenches};
 use super::factored::Factored;
 use super::units::{Units, passive_at_home};
 use super::view::{Motion, View};
-use crate::chain::implicit::Implicit;
 use crate::chain::kinematics::Kinematics;
-use crate::chain::rows::Rows;
+use crate::chain::{Implicit, Rows};
 use crate::graph::{Frame, Graph, Node, Vector};
 
 /// The frames of a tree, its loops, and what eliminates the passive variables.

@@ -18,8 +18,8 @@
 
 use abbe_spec::expr::{Function as Call, Symbol};
 
-use super::loops::{ClosedLoops, RealNodes};
 use super::system::LoopSystem;
+use super::{ClosedLoops, RealNodes};
 use crate::graph::{Graph, Node};
 
 /// Largest number of steps.

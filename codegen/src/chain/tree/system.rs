@@ -4,8 +4,8 @@
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
+use super::Parts;
 use super::factored::Factored;
-use super::parts::Parts;
 use super::units::Units;
 use crate::graph::{Graph, Node};
 

@@ -6,7 +6,7 @@ use abbe_core::Function;
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::real::Real;
+use super::Real;
 use crate::chain::Model;
 use crate::program::{Program, Rounded, locals, results, straight_line};
 

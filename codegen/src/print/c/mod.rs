@@ -22,16 +22,17 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
 use self::functions::{documentation, function, head};
-use self::heads::{RESTRICT, comment};
+use self::heads::{RESTRICT, SIZE, broken, comment};
 use self::operators::HEADERS;
 use self::procedures::CPrinter;
 pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
-use super::layout::{LINE, NOT_CLOSED, SourceFile, Writer, described, escaped, harmless};
 use super::lists::{lists, numbers};
-use super::names::{file_name, function_of, renamed};
-use super::procedure::Printer;
+use super::{
+    LINE, NOT_CLOSED, Printer, SourceFile, Writer, described, escaped, file_name, function_of, harmless,
+    renamed,
+};
 use crate::chain::Model;
 use crate::procedure::look_up;
 use crate::program::Routines;

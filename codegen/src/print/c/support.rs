@@ -4,11 +4,8 @@ use std::collections::BTreeSet;
 
 use abbe_spec::expr::Function;
 
-use super::procedures::CPrinter;
-use super::real::Real;
-use super::sines;
-use crate::print::layout::Writer;
-use crate::print::procedure::Printer;
+use super::{CPrinter, Real, sines};
+use crate::print::{Printer, Writer};
 use crate::procedure::{clamped, least_and_greatest, side, sign};
 use crate::program::{Action, Routines};
 

@@ -13,9 +13,8 @@ mod xml;
 use abbe_spec::Spec;
 use sha2::{Digest, Sha256};
 
-use self::variables::Variables;
-use super::c::{self, Real};
-use super::layout::SourceFile;
+use self::variables::{CORRECTED, CORRECTION, Causality, OUTPUTS, Variable, Variables, definitions};
+use super::{Real, SourceFile, c};
 use crate::chain::Model;
 use crate::program::Routines;
 pub use description::Fmi;

@@ -17,10 +17,8 @@ use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
 use self::procedures::PythonPrinter;
 use super::header::header;
-use super::layout::{SourceFile, Writer, escaped, harmless};
 use super::lists::{lists, records};
-use super::names::{file_name, function_of, renamed};
-use super::procedure::Printer;
+use super::{Printer, SourceFile, Writer, escaped, file_name, function_of, harmless, renamed};
 use crate::procedure::look_up;
 use crate::program::Routines;
 

@@ -7,7 +7,7 @@ use abbe_spec::{Spec, Variable};
 
 use super::operators::number;
 use crate::chain::{Model, lower_pairs};
-use crate::print::layout::{Writer, array, call, described, escaped};
+use crate::print::{Writer, array, call, described, escaped};
 
 /// Types that a generated module defines or imports, and types of the prelude.
 const TAKEN: &str = "Box Class Clone Component Copy Debug Default Description Distribution Drop Effect Eq Err \

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use abbe_spec::expr::{Function, Lookup, Table};
 
-use crate::print::expression::{Binding, Expression, Syntax, infix};
+use crate::print::{Binding, Expression, Syntax, infix};
 use crate::program::{Action, Operand};
 
 /// The syntax of Rust with the spec's tables.

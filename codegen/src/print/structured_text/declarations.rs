@@ -4,8 +4,9 @@ use abbe_core::Description;
 use abbe_core::function::Array;
 use abbe_spec::Spec;
 
-use super::operators::initial;
-use crate::print::layout::{Writer, harmless as on_one_line, width};
+use super::initial;
+use crate::print::layout::harmless as on_one_line;
+use crate::print::{Writer, width};
 
 /// Maximum length of a line.
 const LINE: usize = 100;

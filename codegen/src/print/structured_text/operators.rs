@@ -6,9 +6,9 @@ use abbe_core::Function as Routine;
 use abbe_spec::Spec;
 use abbe_spec::expr::{Function, Lookup};
 
-use super::support::Support;
-use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
-use crate::print::names::{Identifiers, distinct};
+use super::Support;
+use crate::print::expression::Called;
+use crate::print::{Binding, Expression, Identifiers, Syntax, arithmetic, distinct};
 use crate::procedure::{Precision, compensated};
 use crate::program::{Action, Routines};
 

@@ -12,13 +12,12 @@ use abbe_core::{Description, LookupTable};
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
-use super::declarations::{argument, array_name, array_type, comment, document, numbers, section, variables};
-use super::operators::{instance, number};
-use super::support::Support;
-use crate::print::expression::{Binding, Expression, Value};
-use crate::print::flat::Results;
-use crate::print::layout::{LINE, Writer, escaped, width};
-use crate::print::procedure::{Called, Invocation, Printer, arrays, commands};
+use super::declarations::{argument, array_name, array_type, document, numbers, section, variables};
+use super::{Support, comment, instance, number};
+use crate::print::{
+    Binding, Called, Expression, Invocation, LINE, Printer, Results, Value, Writer, arrays, commands,
+    escaped, width,
+};
 use crate::procedure::{Index, Kind, Precision, Procedure, Variable, look_up};
 use crate::program::{Routine, Routines};
 

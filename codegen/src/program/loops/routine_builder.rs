@@ -4,7 +4,7 @@
 use abbe_core::function::Count;
 use abbe_spec::expr::Symbol;
 
-use super::sums::FrameLoops;
+use super::FrameLoops;
 use crate::chain::Rows;
 use crate::graph::{Frame, Graph, Node, Vector};
 use crate::program::{Array, ArrayRows, Block, Program, Repeated, Role, Row, Stage};

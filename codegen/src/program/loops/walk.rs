@@ -2,12 +2,10 @@
 
 use abbe_core::function::Count;
 
-use super::routine_builder::{Body, POSE, RoutineBuilder};
-use super::sums::FrameLoops;
+use super::{Body, FrameLoops, POSE, RoutineBuilder};
 use crate::chain::displaced;
 use crate::graph::Node;
-use crate::program::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage};
-use crate::program::{Operations, Program};
+use crate::program::{Array, ArrayRows, Block, Operations, Program, Role, Routine, Row, Stage};
 
 /// Dimensions of the poses of the base, of all frames and of the tool.
 const CHAIN: [Count; 3] = [Count::BaseToTool, POSE[0], POSE[1]];
