@@ -2,7 +2,7 @@
 //!
 //! Loops of frames, and the conditions under which they close.
 
-use super::frame::Frame;
+use super::Frame;
 use crate::diagnostic::Span;
 use crate::expr::{Expression, Symbol};
 

@@ -4,7 +4,7 @@
 //! Checks sources that act on loops: an error of a length acts as a displacement of one end of the
 //! leg.
 
-use super::declarations::Declarations;
+use super::Declarations;
 use crate::diagnostic::{Diagnostic, Span, first};
 use crate::document::Document;
 use crate::expr::Symbol;
