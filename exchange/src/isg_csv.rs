@@ -9,14 +9,14 @@
 use std::fmt::Write;
 
 use abbe::Pose;
+use abbe::analysis::sampling::vectors::{scale, subtract};
 use abbe_spec::number::digits;
 use abbe_spec::{Diagnostics, mistake};
 
 use crate::export::report::{rounded, unreadable};
-use crate::export::rotary_axes::{RotaryAxis, TabledAxis, placed_difference};
+use crate::export::rotary_axes::{TabledAxis, placed_difference};
 use crate::export::slides::{Axes, ErrorTable, Reference, Slide, interpolated, small_motion, tool_points};
-use crate::export::{ExportReport, ExportedFile, RealMachine};
-use abbe::analysis::sampling::vectors::{scale, subtract};
+use crate::export::{ExportReport, ExportedFile, RealMachine, RotaryAxis};
 
 /// Writes the tables, with `nodes` values of each slide.
 ///

@@ -1,7 +1,6 @@
 //! Corrections of the joints on a grid over their limits (CSV), for controllers that interpolate
 //! between the nodes.
 
-use abbe_spec::option::{NODES, SET};
 use std::io;
 
 use abbe::analysis::{Goal, compensated, sampling};
@@ -9,6 +8,7 @@ use abbe::{Error, Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::csv_writer::{Csv, Heading};
 use abbe_spec::number::{digits, variables};
+use abbe_spec::option::{NODES, SET};
 use abbe_spec::{Diagnostics, Notes, mistake};
 
 use crate::export::report::unreadable;

@@ -24,8 +24,7 @@ use abbe_codegen::graph::{Frame, Graph, Node};
 use abbe_spec::Factor;
 use abbe_spec::expr::{Expression, Symbol};
 
-use super::error_model::{ChainErrors, Link, product};
-use super::real_machine::RealMachine;
+use super::{ChainErrors, Link, RealMachine, product};
 
 /// Joint of the format.
 #[derive(Clone, Debug)]

@@ -7,9 +7,7 @@ use abbe_spec::number::digits;
 use abbe_spec::{Diagnostics, mistake};
 use serde::Serialize;
 
-use super::pose_difference::PoseDifference;
-use super::real_machine::RealMachine;
-use super::rotary_axes::RotaryAxis;
+use super::{PoseDifference, RealMachine, RotaryAxis};
 
 /// Change of a number, in any unit, below which it is rounding.
 pub(crate) const UNCHANGED: f64 = 1e-12;
