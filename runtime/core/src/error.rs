@@ -2,8 +2,7 @@
 //!
 //! Remedies for errors.
 
-use core::fmt;
-use core::fmt::Display;
+use core::fmt::{self, Display};
 
 use crate::{Function, Quantity};
 

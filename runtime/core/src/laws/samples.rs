@@ -1,8 +1,7 @@
 //! The configurations at which laws are checked.
 
 use super::{Configuration, Failure};
-use crate::sampling;
-use crate::{Error, Manipulator, Pose, euler_margin, tool_pose};
+use crate::{Error, Manipulator, Pose, euler_margin, sampling, tool_pose};
 
 /// Smallest `cos ρ` at which Euler rows are compared: differences lose digits near the singularity.
 const EULER_MARGIN: f64 = 0.05;
