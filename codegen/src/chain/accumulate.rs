@@ -2,8 +2,7 @@
 //! without the poses of the frames in `F_0`: `ΔX = J_e ε` without `J_e`.
 
 use abbe_core::{Component, Orientation};
-use abbe_spec::Spec;
-use abbe_spec::expr::{Motion, motion};
+use abbe_spec::{Motion, Spec, motion};
 
 use super::{Local, Rows};
 use crate::graph::{Frame, Graph, Node, Vector};

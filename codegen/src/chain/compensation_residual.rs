@@ -1,7 +1,6 @@
 //! Error left after one step of compensation, as nodes to be maximized.
 
-use abbe_spec::expr::{Elementary, Symbol};
-use abbe_spec::{ChainNumber, Factor, Spec};
+use abbe_spec::{ChainNumber, Elementary, Factor, Spec, Symbol};
 
 use super::kinematics::of_repeatable;
 use super::{Causes, JOINTS_OF_A_POSE, Links, Magnitude, RealChain, joint_step, sources};

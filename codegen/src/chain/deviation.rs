@@ -7,8 +7,7 @@
 //! ε_i = vee(A_i⁻¹ ∂A_i/∂x) δx          and of the tool, after E_n:   ε_n = vee(∂T/∂x T⁻¹) δx
 //! ```
 
-use abbe_spec::expr::{Elementary, Function, Motion, Symbol};
-use abbe_spec::{ChainNumber, Factor, Spec};
+use abbe_spec::{ChainNumber, Elementary, Factor, Function, Motion, Spec, Symbol};
 
 use super::symbol_jacobian::{Steps, twist};
 use super::{FrameTwist, Local, tree};

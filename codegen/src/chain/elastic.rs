@@ -6,8 +6,7 @@
 //! point projects onto the beam: beyond M it acts at M, before the clamped end not at all.
 
 use abbe_core::Component;
-use abbe_spec::expr::{Function, Motion, Symbol, motion};
-use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
+use abbe_spec::{Axes, Beam, Cause, Effect, Function, Load, Motion, Point, Spec, Symbol, motion};
 
 use super::deviation::transform_twists;
 use super::tree::{Parts, Reaction, length_slopes};

@@ -27,8 +27,7 @@
 //! frames with a common origin there is nothing to compute.
 
 use abbe_core::Component;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Symbol, motion};
+use abbe_spec::{Spec, Symbol, motion};
 use indexmap::IndexMap;
 
 use super::deviation::local_twist;

@@ -13,7 +13,7 @@
 //! The tool point itself serves as such a frame, because every moment about it is 0.
 
 use abbe_core::Component;
-use abbe_spec::expr::{Motion, motion};
+use abbe_spec::{Motion, motion};
 
 use super::Rows;
 use super::walk::Step;

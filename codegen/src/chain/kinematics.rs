@@ -1,8 +1,7 @@
 //! Kinematics of frames, which a chain and a tree of frames have in forms of their own.
 
 use abbe_core::Class;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::Rows;
 use crate::graph::{Frame, Graph, Node, Vector};

@@ -6,8 +6,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use abbe_core::Orientation;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Function, Symbol};
+use abbe_spec::{Function, Spec, Symbol};
 
 use super::by_source::errors_by_source;
 use super::tree::Parts;

@@ -13,8 +13,7 @@
 //! To first order the order does not matter.
 
 use abbe_core::Component;
-use abbe_spec::expr::{Expression, Motion, Symbol, motion};
-use abbe_spec::{ChainNumber, Factor, Spec};
+use abbe_spec::{ChainNumber, Expression, Factor, Motion, Spec, Symbol, motion};
 
 use super::walk::{apply_with, walk};
 use super::{Causes, Links, Local, transform};

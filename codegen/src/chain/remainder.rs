@@ -1,7 +1,6 @@
 //! Remainder of the first-order prediction, as a node to be maximized.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::kinematics::of_repeatable;
 use super::tree::curvature;

@@ -4,8 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use abbe_core::{Class, Component};
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Cause, ChainNumber, Deviation, DeviationCause, Effect, Identified, Source, Spec, Uncertain};
+use abbe_spec::{
+    Cause, ChainNumber, Deviation, DeviationCause, Effect, Identified, Source, Spec, Symbol, Uncertain,
+};
 
 use super::walk::walk;
 use super::{Element, FrameTwist, Loads, frame_twists, six, transform, vectors};

@@ -4,8 +4,7 @@
 
 use std::collections::HashMap;
 
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Factor, Spec};
+use abbe_spec::{Factor, Spec, Symbol};
 use indexmap::IndexMap;
 
 use super::walk::{Step, walk};

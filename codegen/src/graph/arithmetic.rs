@@ -3,7 +3,7 @@
 //!
 //! Signs move outwards until a sum absorbs them, so that a term and its negative share one node.
 
-use abbe_spec::expr::{Function, Symbol};
+use abbe_spec::{Function, Symbol};
 
 use super::{Graph, Node, Op};
 

@@ -4,7 +4,7 @@
 
 use std::borrow::Cow;
 
-use abbe_spec::expr::{Function, Lookup};
+use abbe_spec::{Function, Lookup};
 
 use super::Identifiers;
 use crate::program::{Action, ArrayRows, Repeated, Row};

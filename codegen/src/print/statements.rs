@@ -4,8 +4,7 @@ use std::collections::HashSet;
 
 use abbe_core::Description;
 use abbe_core::function::Count;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::body::body;
 use super::{Flat, Names, Statement, Syntax, Value};

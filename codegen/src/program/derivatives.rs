@@ -2,8 +2,7 @@
 
 use abbe_core::Function;
 use abbe_core::function::Count;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::routines::at_once;
 use super::{Array, Program, Role, Routine, results};

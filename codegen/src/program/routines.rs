@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use abbe_core::function::{COMMANDS, COMPENSATED, Count, Signature};
 use abbe_core::{Description, Function, Orientation};
-use abbe_spec::Spec;
-use abbe_spec::expr::Table as LookupTable;
+use abbe_spec::{Spec, Table as LookupTable};
 
 use super::description::description;
 use super::loops::FrameLoops;

@@ -1,6 +1,6 @@
 //! Straight-line programs: steps, each after its operands.
 
-use abbe_spec::expr::{Function, Lookup, Symbol};
+use abbe_spec::{Function, Lookup, Symbol};
 
 /// Source of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]

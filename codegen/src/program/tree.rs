@@ -2,7 +2,7 @@
 
 use abbe_core::Function;
 use abbe_core::function::Count;
-use abbe_spec::expr::Symbol;
+use abbe_spec::Symbol;
 
 use super::{Array, ArrayRows, Block, Operand, Program, Repeated, Role, Rounded, Stage};
 use crate::chain::{ClosedLoops, Model, Path, RealNodes, STEPS};

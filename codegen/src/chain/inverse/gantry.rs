@@ -1,7 +1,7 @@
 //! Three slides and three revolute joints, in any order.
 
 use abbe_core::VariableKind;
-use abbe_spec::expr::Symbol;
+use abbe_spec::Symbol;
 
 use super::{Angle, Joint, Lines, Motion, Partial, Root, Wrist};
 use crate::graph::{Graph, Node, Vector};

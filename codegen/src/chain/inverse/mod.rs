@@ -29,8 +29,7 @@ mod wrist;
 use std::f64::consts::PI;
 
 use abbe_core::VariableKind;
-use abbe_spec::expr::{Function, Symbol};
-use abbe_spec::{Spec, Variable};
+use abbe_spec::{Function, Spec, Symbol, Variable};
 
 use self::angles::{Angle, Root, Rounding, angle_between, are_square, linear, tilt_angles};
 use self::arm::Arm;

@@ -13,8 +13,7 @@
 //! Further legs of the same drive, as the second rod of a delta's arm, are conditions.
 
 use abbe_core::VariableKind;
-use abbe_spec::expr::{Elementary, Expression, Function, Motion, Symbol};
-use abbe_spec::{Closure, Factor, Spec};
+use abbe_spec::{Closure, Elementary, Expression, Factor, Function, Motion, Spec, Symbol};
 
 use super::{Angle, Joint, Line, Partial, Probes, Rounding, at_zero, line, linear, reject};
 use crate::chain::lower_pairs;

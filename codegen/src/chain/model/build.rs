@@ -1,7 +1,6 @@
 //! The nodes of a chain or a tree of frames.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::chain::Chain;
 use super::machine::Machine;

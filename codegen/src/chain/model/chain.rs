@@ -1,7 +1,6 @@
 //! The kinematics of a chain of frames.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::machine::Machine;
 use crate::chain::equivalent_forms::{EquivalentForms, equate_at_origin};

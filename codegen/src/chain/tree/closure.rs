@@ -13,8 +13,7 @@
 //!
 //! Errors of the lengths of legs and struts are errors of the frames at their ends.
 
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Closure, Loop, Spec};
+use abbe_spec::{Closure, Loop, Spec, Symbol};
 
 use super::view::{Motion, View};
 use crate::chain::FrameTwist;

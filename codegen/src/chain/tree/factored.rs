@@ -5,7 +5,7 @@
 //! Columns that depend on each other are one block (Duff, Reid 1978), and a block comes after all
 //! on which it depends.
 
-use abbe_spec::expr::Function;
+use abbe_spec::Function;
 
 use super::units::Units;
 use crate::graph::{Graph, Node};

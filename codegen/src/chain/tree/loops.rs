@@ -10,8 +10,7 @@
 //!
 //! for r′ and r″, and in the same way `p″(t)` of the tool point.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::Parts;
 use super::closure::{self, Ends};

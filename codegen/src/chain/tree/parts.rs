@@ -15,8 +15,7 @@
 //! and −λ u on the ends of a leg, along its direction u. A leg that is pressed has a positive λ.
 
 use abbe_core::Component;
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Closure, Factor, Spec};
+use abbe_spec::{Closure, Factor, Spec, Symbol};
 
 use super::closure::{self, Ends, Wrenches, wrenches};
 use super::factored::Factored;

@@ -1,8 +1,7 @@
 //! The equations of all loops of a machine as functions of the passive variables, and Newton's
 //! step.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::Parts;
 use super::factored::Factored;

@@ -1,8 +1,7 @@
 //! Poses of the frames below one of them, and motions of these frames.
 
 use abbe_core::Component;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Motion as Kind, Symbol, motion};
+use abbe_spec::{Motion as Kind, Spec, Symbol, motion};
 
 use crate::chain::FrameTwist;
 use crate::chain::symbol_jacobian::{Steps, twist};

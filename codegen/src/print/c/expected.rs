@@ -3,8 +3,7 @@
 use std::ops::Add;
 
 use abbe_core::Function;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::Real;
 use crate::chain::Model;

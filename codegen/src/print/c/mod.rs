@@ -18,8 +18,7 @@ mod support;
 
 use abbe_core::compensator::{CHANGE, LARGEST, Status, bound};
 use abbe_core::function::COMMANDS;
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
 use self::functions::{documentation, function, head};
 use self::heads::{RESTRICT, SIZE, broken, comment};

@@ -3,8 +3,7 @@
 use std::borrow::Cow;
 
 use abbe_core::Function;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Function as Operator, Lookup};
+use abbe_spec::{Function as Operator, Lookup, Spec};
 
 use super::Real;
 use crate::print::expression::Called;

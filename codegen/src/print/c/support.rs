@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use abbe_spec::expr::Function;
+use abbe_spec::Function;
 
 use super::{CPrinter, Real, sines};
 use crate::print::{Printer, Writer};

@@ -8,8 +8,7 @@ mod functions;
 mod operators;
 mod procedures;
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
 use self::functions::function;
 use self::operators::number;

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use abbe_spec::expr::{Function, Lookup, Table};
+use abbe_spec::{Function, Lookup, Table};
 
 use crate::print::expression::Called;
 use crate::print::{Binding, Expression, Syntax, arithmetic, function_of, literal};

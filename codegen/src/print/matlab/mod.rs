@@ -13,8 +13,7 @@ use std::collections::HashSet;
 use abbe_core::Description;
 use abbe_core::compensator::{CHANGE, LARGEST, bound};
 use abbe_core::function::COMMANDS;
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
 use self::functions::function;
 use self::operators::{WORDS, number, spelled};

@@ -2,8 +2,7 @@
 
 use std::borrow::Cow;
 
-use abbe_spec::Spec;
-use abbe_spec::expr::{Function, Lookup};
+use abbe_spec::{Function, Lookup, Spec};
 
 use crate::print::expression::Called;
 use crate::print::{Binding, Expression, Identifiers, Syntax, arithmetic, function_of, literal};

@@ -9,9 +9,8 @@ mod functions;
 mod operators;
 mod procedures;
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
 use abbe_spec::literal::quoted;
+use abbe_spec::{Spec, Table};
 
 use self::functions::{MARGIN, face, kernel};
 use self::operators::number;

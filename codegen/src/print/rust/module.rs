@@ -6,8 +6,7 @@
 mod tests;
 
 use abbe_core::{Class, Function, Orientation};
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
 use super::face;
 use super::functions::{error_columns, raw_function, shares_columns};

@@ -3,8 +3,7 @@
 use std::borrow::Cow;
 
 use abbe_core::Function as Routine;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Function, Lookup};
+use abbe_spec::{Function, Lookup, Spec};
 
 use super::Support;
 use crate::print::expression::Called;

@@ -9,8 +9,7 @@
 use abbe_core::compensator::{CHANGE, LARGEST, bound};
 use abbe_core::function::{COMPENSATED, Signature};
 use abbe_core::{Description, LookupTable};
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
 use super::declarations::{argument, array_name, array_type, document, numbers, section, variables};
 use super::{Support, comment, instance, number};

@@ -4,8 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Function;
+use abbe_spec::{Function, Spec};
 
 use crate::procedure::{Procedure, clamped, side, sign};
 use crate::program::{Action, Operand, Routines};

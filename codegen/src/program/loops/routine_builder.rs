@@ -2,7 +2,7 @@
 //! it reads become symbols of its own graph.
 
 use abbe_core::function::Count;
-use abbe_spec::expr::Symbol;
+use abbe_spec::Symbol;
 
 use super::FrameLoops;
 use crate::chain::Rows;
