@@ -17,7 +17,7 @@ use abbe_spec::{Motion, motion};
 
 use super::Rows;
 use super::walk::Step;
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// Parts of a frame's six columns: its axes, and the moments and rows 4–6 of the rotations `e_s e_r
 /// e_p`.
@@ -61,7 +61,7 @@ impl Columns {
     }
 
     /// Returns all entries of the six columns.
-    pub(crate) fn dense(&self, graph: &mut Graph) -> [[Node; 6]; 6] {
+    pub(crate) fn dense(&self, graph: &mut Graph) -> [Six; 6] {
         let zero = [graph.zero(); 3];
         Component::ALL.map(|component| {
             let ([a, b, c], [d, e, f]) = match motion(component) {

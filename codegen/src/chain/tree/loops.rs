@@ -19,7 +19,7 @@ use super::system::LoopSystem;
 use super::units::{Units, at_home, passive_at_home};
 use crate::chain::kinematics::{magnitudes, of_repeatable};
 use crate::chain::{Causes, Implicit, PlacedErrors, RealChain};
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// Nodes that close the loops. Passive variables are local symbols, from 0.
 #[derive(Clone, Debug)]
@@ -63,7 +63,7 @@ impl ClosedLoops {
         spec: &Spec,
         parts: &Parts<'_>,
         causes: &Causes,
-        errors: &[[Node; 6]],
+        errors: &[Six],
     ) -> Self {
         let units = Units::new(spec, graph);
         let equations = [parts.residual(graph), parts.upright(graph)];
@@ -126,11 +126,11 @@ impl RealNodes {
     fn displaced(
         graph: &mut Graph,
         spec: &Spec,
-        errors: &[[Node; 6]],
+        errors: &[Six],
         units: &Units,
         passive_home: &[f64],
     ) -> Self {
-        let placed = |(frame, errors): (usize, &[Node; 6])| PlacedErrors {
+        let placed = |(frame, errors): (usize, &Six)| PlacedErrors {
             source: 0,
             frame,
             place: None,
