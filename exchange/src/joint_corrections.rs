@@ -9,8 +9,9 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::csv_writer::{Csv, Heading};
 use abbe_spec::number::{digits, variables};
 use abbe_spec::option::{NODES, SET};
-use abbe_spec::{Diagnostics, Notes, mistake};
+use abbe_spec::{Notes, mistake};
 
+use crate::Result;
 use crate::export::report::unreadable;
 use crate::export::{ExportReport, ExportedFile, PoseDifference, RealMachine};
 
@@ -29,11 +30,7 @@ const DEFAULT_NODES: f64 = 10_000.0;
 ///
 /// A joint has no limits, there are too many nodes, a configuration cannot be evaluated, or `notes`
 /// stop the job.
-pub fn write(
-    machine: &RealMachine,
-    nodes: Option<usize>,
-    notes: &mut dyn Notes,
-) -> Result<ExportReport, Diagnostics> {
+pub fn write(machine: &RealMachine, nodes: Option<usize>, notes: &mut dyn Notes) -> Result<ExportReport> {
     let spec = &machine.spec;
     let joints = spec.variables.len();
     let endless =
