@@ -210,8 +210,7 @@ impl Tables {
             to_real = to_real.then(&turned).then(&error.inverse());
             to_ideal = to_ideal.then(&turned);
         }
-        let on_workpiece = subtract(to_real.apply(real), to_ideal.apply(ideal));
-        let off = to_ideal.inverse().turn(on_workpiece);
+        let off = to_ideal.inverse().turn(subtract(to_real.apply(real), to_ideal.apply(ideal)));
         let mut q = q.to_vec();
         slides.iter().for_each(|slide| q[slide.variable] -= off[slide.axis] / mm);
         q

@@ -62,8 +62,7 @@ pub fn write(machine: &RealMachine, nodes: Option<usize>, notes: &mut dyn Notes)
     let wide = Interpreter::new(wide);
     let u = sampling::nominal_inputs(machine.manipulator.description());
     let failed = |q: &[f64], error: &Error| {
-        let at = variables(q, spec);
-        mistake::not_evaluated(&machine.origin, &at, error, machine.manipulator.description())
+        mistake::not_evaluated(&machine.origin, &variables(q, spec), error, machine.manipulator.description())
     };
     let (mut rows, mut at_nodes, mut largest) =
         (Vec::with_capacity(total), Vec::with_capacity(total), (0.0, String::new()));

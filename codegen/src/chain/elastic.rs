@@ -164,8 +164,7 @@ impl<'a> Loads<'a> {
             let shift = graph.add_vectors(shift, swing);
             sum = add(graph, sum, six(shift, turn));
         }
-        let own = self.weights.iter().find(|weight| std::ptr::eq(weight.effect, element.effect));
-        if let Some(weight) = own {
+        if let Some(weight) = self.weights.iter().find(|weight| std::ptr::eq(weight.effect, element.effect)) {
             let force = local(graph, &there.axes, weight.force);
             let under_own_weight = own_weight(graph, beam, length, force);
             sum = add(graph, sum, under_own_weight);
@@ -198,8 +197,7 @@ impl<'a> Loads<'a> {
                 sum = graph.add(sum, power);
             }
         }
-        let slopes = length_slopes(graph, self.spec, symbol);
-        for (reaction, slope) in self.reactions.iter().zip(slopes) {
+        for (reaction, slope) in self.reactions.iter().zip(length_slopes(graph, self.spec, symbol)) {
             let power = graph.mul(reaction.forces[0], slope);
             sum = graph.sub(sum, power);
         }

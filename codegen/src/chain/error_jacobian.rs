@@ -177,8 +177,7 @@ impl<'m> Moments<'m> {
 
     /// Returns `a × b` for two axes of one frame near frame i: ± its third axis.
     fn cross(&self, graph: &mut Graph, i: usize, a: Vector, b: Vector) -> Option<Vector> {
-        let near = self.frames[i.saturating_sub(1)..].iter().take(3).chain([self.tool]);
-        for frame in near {
+        for frame in self.frames[i.saturating_sub(1)..].iter().take(3).chain([self.tool]) {
             let find = |graph: &mut Graph, v: Vector| {
                 (0..3).find_map(|k| parallel(graph, frame.axes[k], v).map(|sign| (k, sign)))
             };

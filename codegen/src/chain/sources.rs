@@ -227,8 +227,7 @@ fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<Six>])
             Uncertain::Identified(Identified::Base(component)) => {
                 let mut there = [graph.zero(); 6];
                 there[*component as usize] = graph.constant(1.0);
-                let on_base = spec.frames.iter().enumerate().filter(|(_, frame)| frame.parent.is_none());
-                for (i, frame) in on_base {
+                for (i, frame) in spec.frames.iter().enumerate().filter(|(_, frame)| frame.parent.is_none()) {
                     let first = transform(graph, &frame.factors);
                     let place = graph.inverse(&first);
                     unscaled[i] = at_frame(graph, &place, there);

@@ -170,8 +170,7 @@ pub(super) trait Printer {
     /// Declares a local array with values, given as its entries.
     fn create(&mut self, name: &str, entries: &[(String, &Entry)]) {
         self.zeros(name, entries.len());
-        let others = entries.iter().filter(|(_, value)| !value.is_zero).cloned();
-        self.assign_all(&others.collect::<Vec<_>>());
+        self.assign_all(&entries.iter().filter(|(_, value)| !value.is_zero).cloned().collect::<Vec<_>>());
     }
 
     /// Prints a copy of an array.
@@ -340,8 +339,7 @@ pub(super) trait Printer {
             Value::Element(array, index) => Expression::name(self.at(array, &index.to_string())),
             Value::Unary(Unary::Negative, operand) => {
                 // `-` binds less than `*` in some languages.
-                let text = format!("-{}", self.value(operand).at_least(Binding::Atom));
-                Expression::new(text, Binding::Choice)
+                Expression::new(format!("-{}", self.value(operand).at_least(Binding::Atom)), Binding::Choice)
             }
             Value::Unary(Unary::Absolute, operand) => called(Called::Absolute, std::slice::from_ref(operand)),
             Value::Unary(Unary::Root, operand) => called(Called::Root, std::slice::from_ref(operand)),

@@ -133,8 +133,7 @@ impl Writer<'_> {
     fn stage(&mut self, stage: &Stage, statements: &mut Vec<Statement>) {
         match stage {
             Stage::Block(block) => {
-                let places = block.reads.iter().chain(&block.writes).map(|place| place.array);
-                let fresh = self.begin(places);
+                let fresh = self.begin(block.reads.iter().chain(&block.writes).map(|place| place.array));
                 let (whole, others): (Vec<_>, Vec<_>) =
                     fresh.into_iter().partition(|array| self.is_filled_at_once(block, *array));
                 self.whole = whole;

@@ -96,8 +96,7 @@ pub struct Program {
 impl Program {
     /// Iterates over the operands of all steps, and the outputs.
     pub(crate) fn operands(&self) -> impl Iterator<Item = Operand> {
-        let operands = self.steps.iter().flat_map(|step| step.action.operands());
-        operands.chain(self.outputs.iter().copied())
+        self.steps.iter().flat_map(|step| step.action.operands()).chain(self.outputs.iter().copied())
     }
 
     pub(super) fn count_uses(&mut self) {

@@ -286,8 +286,7 @@ fn configurations(
     let description = manipulator.description();
     let moved: Vec<usize> = (0..description.variables.len()).collect();
     let free = |i: &usize| {
-        let ends = description.inputs[*i].range;
-        ends.iter().all(|end| end.is_finite()) && !fixed_inputs.contains(i)
+        description.inputs[*i].range.iter().all(|end| end.is_finite()) && !fixed_inputs.contains(i)
     };
     let inputs: Vec<usize> = (0..description.inputs.len()).filter(free).collect();
     let workspace = random_joint_samples(manipulator, &moved, samples, seed)?.inputs(manipulator, &inputs)?;

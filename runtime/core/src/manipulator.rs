@@ -166,7 +166,6 @@ fn jacobian(
     columns: &mut [[f64; 6]],
 ) -> Result<Pose> {
     let mut pose = Pose([[0.0; 3]; 4]);
-    let results = &mut [pose.0.as_flattened_mut(), columns.as_flattened_mut()];
-    manipulator.evaluate(function, &[q, s], results)?;
+    manipulator.evaluate(function, &[q, s], &mut [pose.0.as_flattened_mut(), columns.as_flattened_mut()])?;
     Ok(pose)
 }

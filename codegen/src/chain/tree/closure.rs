@@ -48,8 +48,7 @@ impl Ends {
     /// Returns the last frame that carries all of them; `None` for `F_0`.
     pub(super) fn root(self, spec: &Spec) -> Option<usize> {
         let paths = [self.first, self.second, self.axes].map(|frame| spec.path(frame));
-        let is_common = |frame: &&usize| paths.iter().all(|path| path.contains(frame));
-        paths[0].iter().rev().find(is_common).copied()
+        paths[0].iter().rev().find(|frame: &&usize| paths.iter().all(|path| path.contains(frame))).copied()
     }
 }
 

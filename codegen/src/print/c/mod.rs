@@ -260,8 +260,7 @@ fn values(
     };
     let (variables, parameters) = (spec.variables.iter(), spec.parameters.iter());
     let inputs = if takes_inputs(routines) { &spec.inputs[..] } else { &[] }.iter();
-    let has_compensated = routines.has_compensated();
-    let corrected = variables.clone().filter(|_| has_compensated);
+    let corrected = variables.clone().filter(|_| routines.has_compensated());
     let bounds =
         |bounds| ones(corrected.clone().map(|one| bound(&routines.description, one.kind, bounds)).collect());
     let by_default =

@@ -27,8 +27,7 @@ pub(super) enum Support {
 impl Support {
     /// Returns the helpers that the functions with this text use.
     pub(super) fn used(routines: &Routines, functions: &str) -> BTreeSet<Self> {
-        let programs = routines.programs();
-        let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
+        let actions = routines.programs().flat_map(|program| program.steps.iter().map(|step| step.action));
         let mut used: BTreeSet<Self> = actions.filter_map(Self::for_action).collect();
         let is_clamped = routines.has_commands() || routines.used_lookup_tables().next().is_some();
         used.extend(Some(Self::Clamped).filter(|_| is_clamped));

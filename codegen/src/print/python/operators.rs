@@ -34,8 +34,7 @@ impl Syntax for Python<'_> {
             Called::Least => call("minimum"),
             Called::Greatest => call("maximum"),
             Called::Function(Function::Side) => {
-                let text = format!("np.where({} >= 0, 1.0, -1.0)", operands[0].text);
-                Expression::new(text, Binding::Atom)
+                Expression::new(format!("np.where({} >= 0, 1.0, -1.0)", operands[0].text), Binding::Atom)
             }
             Called::Function(Function::Asin) => call("arcsin"),
             Called::Function(Function::Acos) => call("arccos"),

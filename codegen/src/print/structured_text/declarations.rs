@@ -65,8 +65,7 @@ pub(super) fn variables(writer: &mut Writer, names: &[String], type_name: &str) 
             length += width(name) + 2;
             length <= room
         };
-        let count = rest.iter().take_while(fits).count().max(1);
-        let (line, others) = rest.split_at(count);
+        let (line, others) = rest.split_at(rest.iter().take_while(fits).count().max(1));
         writer.lines(&format!("{} : {type_name};", line.join(", ")));
         rest = others;
     }

@@ -199,8 +199,7 @@ impl Printer for BlockPrinter<'_> {
         is_descending: bool,
         body: impl FnOnce(&mut Self),
     ) {
-        let ends = range.each_ref().map(Index::number);
-        if let [Some(first), Some(behind)] = ends
+        if let [Some(first), Some(behind)] = range.each_ref().map(Index::number)
             && behind == first + 1
         {
             self.assign(counter, &first.to_string(), None);
@@ -273,8 +272,7 @@ pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, pref
         writer.lines(&format!("FUNCTION_BLOCK {prefix}_{}", signature.name));
         interface(writer, prefix, spec, &routines.description, signature);
         let kept = Variable { name: "last", kind: Kind::Array(spec.variables.len()) };
-        let sum = Variable { name: "sum", kind: Kind::Real };
-        let more = [kept, sum];
+        let more = [kept, Variable { name: "sum", kind: Kind::Real }];
         declarations(writer, &procedure, prefix, if is_cycle { &more } else { &more[1..] });
         let count = spec.variables.len().to_string();
         for text in [RESUME, ROTATIONS].into_iter().filter(|text| is_cycle || *text == ROTATIONS) {

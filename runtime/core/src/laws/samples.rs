@@ -119,8 +119,7 @@ impl<'a> Subject<'a> {
 
     /// Returns `A_1 … A_n` and `T`.
     pub(super) fn transforms(&self, q: &[f64], s: &[f64]) -> Result<Vec<Pose>, Error> {
-        let frames = self.manipulator.description().frames.len();
-        let mut transforms = vec![Pose::IDENTITY; frames + 1];
+        let mut transforms = vec![Pose::IDENTITY; self.manipulator.description().frames.len() + 1];
         self.manipulator.transforms(q, s, &mut transforms)?;
         Ok(transforms)
     }

@@ -139,8 +139,7 @@ impl Declarations {
         let dimension = kind.map(|kind| kind.either(Dimension::NONE, Dimension::LENGTH));
         let name_item = name_item?;
         let name = name_item.string()?;
-        let passive = table.get("passive");
-        let is_passive = passive.and_then(|item| item.boolean()).unwrap_or(false);
+        let is_passive = table.get("passive").and_then(|item| item.boolean()).unwrap_or(false);
         let symbol = match is_passive {
             true => Symbol::Passive(self.passive.len()),
             false => Symbol::Variable(self.variables.len()),

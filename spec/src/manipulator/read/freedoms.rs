@@ -33,8 +33,7 @@ pub(super) fn check_freedoms(tree: Tree<'_>, declarations: &Declarations, docume
         }
     }
     if document.mistakes() == before {
-        let assignment = Assignment::new(tree.loops, moved, declarations.passive.len());
-        for part in assignment.unbalanced() {
+        for part in Assignment::new(tree.loops, moved, declarations.passive.len()).unbalanced() {
             document.mistake(part.mistake(tree.loops, &declarations.passive));
         }
     }

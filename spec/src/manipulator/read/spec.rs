@@ -26,8 +26,7 @@ impl Spec {
     /// Reads and checks a spec file. All syntax errors are reported at once; without any, all
     /// semantic errors.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
-        let document = Document::read(path.as_ref())?;
-        Self::from_document(document)
+        Self::from_document(Document::read(path.as_ref())?)
     }
 
     /// Reads and checks a spec's text. Files of tables are relative to `folder`; `path` is the name

@@ -129,6 +129,5 @@ struct Axis {
 }
 
 fn unit(item: &Item<'_>, scope: &Scope) -> Option<Unit> {
-    let text = item.located_text()?;
-    parse_unit(&text, scope, &mut item.document.found.borrow_mut())
+    parse_unit(&item.located_text()?, scope, &mut item.document.found.borrow_mut())
 }
