@@ -89,8 +89,7 @@ fn spec_files(specs: &Path) -> Result<Vec<PathBuf>, CompileError> {
 /// Returns `true` for a file that accompanies a spec: `arm.study.toml`, `arm.map.toml`,
 /// `arm.plan.toml`.
 fn is_companion(path: &Path) -> bool {
-    let stem = path.file_stem().map(Path::new);
-    let kind = stem.and_then(Path::extension);
+    let kind = path.file_stem().map(Path::new).and_then(Path::extension);
     kind.is_some_and(|kind| ["study", "map", "plan"].iter().any(|companion| kind == *companion))
 }
 

@@ -3,11 +3,11 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use abbe_spec::{Diagnostics, Notes};
+use abbe_spec::Notes;
 
 use crate::export::{ExportReport, RealMachine};
 use crate::urdf::Ends;
-use crate::{dh, isg_csv, joint_corrections, kinematics_comp, linuxcnc, ur_calibration, urdf};
+use crate::{Result, dh, isg_csv, joint_corrections, kinematics_comp, linuxcnc, ur_calibration, urdf};
 
 /// Entry of the table of formats.
 #[derive(Clone, Copy, Debug)]
@@ -161,11 +161,7 @@ impl Format {
     /// # Errors
     ///
     /// The format cannot hold the machine, or `notes` stop the job.
-    pub fn write(
-        &self,
-        machine: &mut RealMachine,
-        notes: &mut dyn Notes,
-    ) -> Result<ExportReport, Diagnostics> {
+    pub fn write(&self, machine: &mut RealMachine, notes: &mut dyn Notes) -> Result<ExportReport> {
         match self {
             Self::Dh => dh::write(machine),
             Self::Urdf { file, base, tip } => {

@@ -9,14 +9,14 @@
 use std::fmt::Write;
 
 use abbe::Pose;
+use abbe::analysis::sampling::vectors::{scale, subtract};
 use abbe_spec::number::digits;
 use abbe_spec::{Diagnostics, mistake};
 
 use crate::export::report::{rounded, unreadable};
-use crate::export::rotary_axes::{RotaryAxis, TabledAxis, placed_difference};
+use crate::export::rotary_axes::{TabledAxis, placed_difference};
 use crate::export::slides::{Axes, ErrorTable, Reference, Slide, interpolated, small_motion, tool_points};
-use crate::export::{ExportReport, ExportedFile, RealMachine};
-use abbe::analysis::sampling::vectors::{scale, subtract};
+use crate::export::{ExportReport, ExportedFile, RealMachine, RotaryAxis};
 
 /// Writes the tables, with `nodes` values of each slide.
 ///
@@ -210,8 +210,7 @@ impl Tables {
             to_real = to_real.then(&turned).then(&error.inverse());
             to_ideal = to_ideal.then(&turned);
         }
-        let on_workpiece = subtract(to_real.apply(real), to_ideal.apply(ideal));
-        let off = to_ideal.inverse().turn(on_workpiece);
+        let off = to_ideal.inverse().turn(subtract(to_real.apply(real), to_ideal.apply(ideal)));
         let mut q = q.to_vec();
         slides.iter().for_each(|slide| q[slide.variable] -= off[slide.axis] / mm);
         q

@@ -1,7 +1,6 @@
 //! Corrections of the joints on a grid over their limits (CSV), for controllers that interpolate
 //! between the nodes.
 
-use abbe_spec::option::{NODES, SET};
 use std::io;
 
 use abbe::analysis::{Goal, compensated, sampling};
@@ -9,8 +8,10 @@ use abbe::{Error, Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::csv_writer::{Csv, Heading};
 use abbe_spec::number::{digits, variables};
-use abbe_spec::{Diagnostics, Notes, mistake};
+use abbe_spec::option::{NODES, SET};
+use abbe_spec::{Notes, mistake};
 
+use crate::Result;
 use crate::export::report::unreadable;
 use crate::export::{ExportReport, ExportedFile, PoseDifference, RealMachine};
 
@@ -29,11 +30,7 @@ const DEFAULT_NODES: f64 = 10_000.0;
 ///
 /// A joint has no limits, there are too many nodes, a configuration cannot be evaluated, or `notes`
 /// stop the job.
-pub fn write(
-    machine: &RealMachine,
-    nodes: Option<usize>,
-    notes: &mut dyn Notes,
-) -> Result<ExportReport, Diagnostics> {
+pub fn write(machine: &RealMachine, nodes: Option<usize>, notes: &mut dyn Notes) -> Result<ExportReport> {
     let spec = &machine.spec;
     let joints = spec.variables.len();
     let endless =
@@ -65,8 +62,7 @@ pub fn write(
     let wide = Interpreter::new(wide);
     let u = sampling::nominal_inputs(machine.manipulator.description());
     let failed = |q: &[f64], error: &Error| {
-        let at = variables(q, spec);
-        mistake::not_evaluated(&machine.origin, &at, error, machine.manipulator.description())
+        mistake::not_evaluated(&machine.origin, &variables(q, spec), error, machine.manipulator.description())
     };
     let (mut rows, mut at_nodes, mut largest) =
         (Vec::with_capacity(total), Vec::with_capacity(total), (0.0, String::new()));

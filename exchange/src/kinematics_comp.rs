@@ -16,9 +16,8 @@ use abbe_spec::number::digits;
 use abbe_spec::{Diagnostics, mistake};
 
 use crate::export::report::{rounded, unreadable};
-use crate::export::rotary_axes::RotaryAxis;
 use crate::export::slides::{Axes, ErrorTable, Reference, tool_points};
-use crate::export::{ExportReport, ExportedFile, RealMachine};
+use crate::export::{ExportReport, ExportedFile, RealMachine, RotaryAxis};
 
 /// Largest number of rows in the column COMPTAB, those of MachAxis included.
 const MOST_ROWS: usize = 100;

@@ -42,3 +42,6 @@ mod format;
 mod placement;
 
 pub use format::{FORMATS, FileFormat, Format, FormatMismatch, Needs};
+
+/// Result of an export.
+type Result<T, E = abbe_spec::Diagnostics> = std::result::Result<T, E>;

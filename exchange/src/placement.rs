@@ -83,8 +83,7 @@ pub(crate) fn placed(xyz: [f64; 3], rpy: [f64; 3]) -> Pose {
 /// Returns roll, pitch and yaw of a pose, in rad.
 pub(crate) fn roll_pitch_yaw(pose: &Pose) -> [f64; 3] {
     let Pose([x, y, z, _]) = *pose;
-    let matrix = Matrix3::from_columns(&[x.into(), y.into(), z.into()]);
-    let rotation = Rotation3::from_matrix_unchecked(matrix);
+    let rotation = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x.into(), y.into(), z.into()]));
     Placement::from_motion(&Isometry3::from_parts(Default::default(), rotation.into())).rpy
 }
 

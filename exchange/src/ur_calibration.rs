@@ -5,22 +5,21 @@
 //! Rx(roll)`; the joint turns about z after it. The nominal frames are those of Craig: z along the
 //! joint, x along the common normal with the previous joint, and `d` of a row within its joint.
 
-use abbe_spec::option::TO_URDF;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
 use abbe::analysis::sampling::JointAxis;
+use abbe::analysis::sampling::vectors::{cross, dot, scale, subtract, unit};
 use abbe::{Manipulator, Pose};
-use abbe_spec::mistake;
 use abbe_spec::number::digits;
-use abbe_spec::{DhConvention, Diagnostics};
+use abbe_spec::option::TO_URDF;
+use abbe_spec::{DhConvention, Diagnostics, mistake};
 
 use crate::dh::DhTable;
 use crate::export::origins::{Joint, origins};
 use crate::export::report::{DECIMALS, UNCHANGED, nominal_sign, rounded, unreadable};
 use crate::export::{ExportReport, ExportedFile, RealMachine, about_x, about_z};
 use crate::placement::{placed, roll_pitch_yaw};
-use abbe::analysis::sampling::vectors::{cross, dot, scale, subtract, unit};
 
 /// Names of the joints, and the angle from the previous axis about x in quarter turns.
 const JOINTS: [(&str, f64); 6] = [

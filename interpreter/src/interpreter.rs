@@ -12,6 +12,9 @@ use abbe_spec::Spec;
 use crate::lanes::{Batch, Block};
 use crate::operation::Tape;
 
+/// Result of evaluating a configuration.
+type Result<T, E = Error> = std::result::Result<T, E>;
+
 /// A manipulator that runs from its spec, without a compiler.
 #[derive(Clone, Debug)]
 pub struct Interpreter {
@@ -93,7 +96,7 @@ impl Interpreter {
     /// # Errors
     ///
     /// Returns [`Error::Count`] if the number of arguments differs from the function's signature.
-    pub fn evaluate_unchecked(&self, function: Function, arguments: &[f64]) -> Result<Vec<f64>, Error> {
+    pub fn evaluate_unchecked(&self, function: Function, arguments: &[f64]) -> Result<Vec<f64>> {
         let tape = self.tape(function);
         checks::length(Quantity::Arguments, [tape.arguments, 1], arguments.len())?;
         Ok(evaluated(tape, arguments.iter()))
@@ -106,7 +109,7 @@ impl Interpreter {
     /// # Errors
     ///
     /// Returns the errors of the corresponding function of [`Manipulator`].
-    pub fn run(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
+    pub fn run(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>> {
         let values = self.unchecked(function, arguments)?;
         self.check(function, &values).map_err(|error| self.named(error, function, arguments))?;
         Ok(values)
@@ -125,7 +128,7 @@ impl Interpreter {
         &self,
         function: Function,
         arguments: &[&[f64]],
-    ) -> Result<Option<Vec<f64>>, Error> {
+    ) -> Result<Option<Vec<f64>>> {
         // With its checks.
         self.run(function, arguments)?;
         let tape = self.code.derivatives[function as usize].get_or_init(|| {
@@ -143,14 +146,14 @@ impl Interpreter {
     /// # Errors
     ///
     /// Returns the errors of [`Manipulator::effects`].
-    pub fn real_pose(&self, q: &[f64], s: &[f64], u: &[f64]) -> Result<Pose, Error> {
+    pub fn real_pose(&self, q: &[f64], s: &[f64], u: &[f64]) -> Result<Pose> {
         let mut pose = Pose::IDENTITY;
         self.evaluate(Function::RealPose, &[q, s, u], &mut [pose.0.as_flattened_mut()])?;
         Ok(pose)
     }
 
     /// Evaluates a function; only its arguments are checked.
-    fn unchecked(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
+    fn unchecked(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>> {
         let arrays = function.signature().arguments;
         for (i, array) in arrays.iter().enumerate() {
             let values = arguments.get(i).copied().unwrap_or_default();
@@ -171,7 +174,7 @@ impl Interpreter {
     }
 
     /// Checks that the results of a function are finite and not singular.
-    fn check(&self, function: Function, values: &[f64]) -> Result<(), Error> {
+    fn check(&self, function: Function, values: &[f64]) -> Result<()> {
         let signature = function.signature();
         let mut rest = values;
         if signature.has_margin(self.description.orientation)
@@ -194,12 +197,7 @@ impl Manipulator for Interpreter {
         &self.description
     }
 
-    fn evaluate(
-        &self,
-        function: Function,
-        arguments: &[&[f64]],
-        results: &mut [&mut [f64]],
-    ) -> Result<(), Error> {
+    fn evaluate(&self, function: Function, arguments: &[&[f64]], results: &mut [&mut [f64]]) -> Result<()> {
         let arrays = function.signature().results;
         for (i, array) in arrays.iter().enumerate() {
             let found = results.get(i).map_or(0, |values| values.len());
@@ -215,7 +213,7 @@ impl Manipulator for Interpreter {
 }
 
 impl Batches for Interpreter {
-    fn batch(&self, function: Function, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
+    fn batch(&self, function: Function, arguments: &Tiles, results: &mut Tiles) -> Result<()> {
         lanes::check(function, &self.description, arguments, results)?;
         arguments.instruction_set().run(Batch { tape: self.tape(function), arguments, results });
         Ok(())
@@ -223,11 +221,11 @@ impl Batches for Interpreter {
 }
 
 impl Sweepable for Interpreter {
-    fn poses(&self, arguments: &Tiles, poses: &mut Tiles) -> Result<(), Error> {
+    fn poses(&self, arguments: &Tiles, poses: &mut Tiles) -> Result<()> {
         self.batch(Function::Pose, arguments, poses)
     }
 
-    fn source_displacements(&self, arguments: &Tiles, displacements: &mut Tiles) -> Result<(), Error> {
+    fn source_displacements(&self, arguments: &Tiles, displacements: &mut Tiles) -> Result<()> {
         self.batch(Function::SourceDisplacements, arguments, displacements)
     }
 }

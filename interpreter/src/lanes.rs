@@ -236,8 +236,7 @@ impl Batch<'_> {
             }
             block.run(tape);
             for place in 0..N {
-                let rows = results.tile_mut::<R>(first + place);
-                for (result, slot) in rows.iter_mut().zip(&tape.outputs) {
+                for (result, slot) in results.tile_mut::<R>(first + place).iter_mut().zip(&tape.outputs) {
                     *result = block.value(*slot, place);
                 }
             }

@@ -158,8 +158,7 @@ impl<'r> Packer<'r> {
                 let is_given = |index: &usize| callee.arrays[*index].role == Role::Argument;
                 let (given, filled): (Vec<usize>, Vec<usize>) = (0..called.len()).partition(is_given);
                 let arguments = given.iter().map(|index| arrays.places[called[*index]].clone()).collect();
-                let results = self.routine(callee, arguments);
-                for (index, slots) in filled.iter().zip(results) {
+                for (index, slots) in filled.iter().zip(self.routine(callee, arguments)) {
                     self.fill(arrays, called[*index], &slots);
                 }
             }
@@ -185,8 +184,7 @@ impl<'r> Packer<'r> {
 
     /// Returns the slots of a row in iteration i.
     fn row(&self, arrays: &Arrays<'_>, array: usize, row: Row, i: usize) -> Vec<Slot> {
-        let declared = &arrays.routine.arrays[array];
-        let count = declared.place_len(row, &self.routines.description);
+        let count = arrays.routine.arrays[array].place_len(row, &self.routines.description);
         let slots = &arrays.places[array];
         let first = match row {
             Row::All | Row::First => 0,

@@ -132,8 +132,7 @@ impl Diagnostics {
                     .iter()
                     .map(|(span, label)| AnnotationKind::Context.span(self.clip(span)).label(visible(label)));
                 let snippet = Snippet::source(with_placeholders(&self.text)).path(visible(&self.path));
-                let snippet = snippet.annotation(primary).annotations(context);
-                group.element(snippet)
+                group.element(snippet.annotation(primary).annotations(context))
             }
         };
         if let Some(help) = &diagnostic.help {
@@ -178,8 +177,7 @@ pub fn nearest_file(missing: &Path) -> Option<PathBuf> {
     let word = missing.file_name()?.to_str()?;
     // Extensions are too short to compare, so the stems must be similar as well.
     let is_near = |name: &&str| nearest(stem(word), [stem(name)]).is_some();
-    let names = names.iter().map(String::as_str).filter(is_near);
-    nearest(word, names).map(|name| missing.with_file_name(name))
+    nearest(word, names.iter().map(String::as_str).filter(is_near)).map(|name| missing.with_file_name(name))
 }
 
 /// Returns a file name without its extension.

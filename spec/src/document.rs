@@ -285,8 +285,7 @@ impl<'d> Item<'d> {
 
     /// Reads a string.
     pub fn string(&self) -> Option<String> {
-        let text = self.text().map(str::to_owned);
-        text.or_else(|| self.wrong_type("a string"))
+        self.text().map(str::to_owned).or_else(|| self.wrong_type("a string"))
     }
 
     /// Reads `true` or `false`.

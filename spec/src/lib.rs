@@ -45,6 +45,7 @@ mod not_toml;
 
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::{Document, Item, Section};
+pub use expr::{Dimension, Elementary, Expression, Function, Lookup, Motion, Symbol, Table, motion};
 pub use manipulator::{
     Axes, Beam, Cause, ChainNumber, Closure, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
     DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, Loop, MAGNITUDE, Magnitude, Matrix,

@@ -37,8 +37,7 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
         return None;
     };
     let message = format!("this file is not TOML; it seems to be {what}");
-    let mistake = Diagnostic { message, ..first.clone() }.label("not TOML").help(help);
-    Some(mistake)
+    Some(Diagnostic { message, ..first.clone() }.label("not TOML").help(help))
 }
 
 /// Recognizes a programming language by the first line that is no TOML comment.

@@ -180,8 +180,7 @@ pub const NO_BREAK: char = '\u{a0}';
 /// Puts no-break spaces into the items of a list such as `d1 = 5 mm, q4 = 90°`, so that lines break
 /// only after commas.
 pub fn unbroken(list: &str) -> String {
-    let items = list.split(", ").map(|item| item.replace(' ', &NO_BREAK.to_string()));
-    items.collect::<Vec<_>>().join(", ")
+    list.split(", ").map(|item| item.replace(' ', &NO_BREAK.to_string())).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

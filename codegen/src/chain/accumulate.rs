@@ -2,12 +2,10 @@
 //! without the poses of the frames in `F_0`: `ΔX = J_e ε` without `J_e`.
 
 use abbe_core::{Component, Orientation};
-use abbe_spec::Spec;
-use abbe_spec::expr::{Motion, motion};
+use abbe_spec::{Motion, Spec, motion};
 
-use super::local::Local;
-use super::rows::Rows;
-use crate::graph::{Frame, Graph, Node, Vector};
+use super::{Local, Rows};
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// The chain as local motions.
 pub(super) struct Links {
@@ -24,9 +22,9 @@ pub(crate) trait Accumulated {
     /// Returns the nodes that represent the quantity.
     fn numbers(&self) -> Vec<Node>;
     /// Returns the quantity as columns of six rows.
-    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]>;
+    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<Six>;
     /// Adds the six errors of the current frame; `lever` is the tool point relative to it.
-    fn add(&mut self, graph: &mut Graph, errors: [Node; 6], lever: Vector);
+    fn add(&mut self, graph: &mut Graph, errors: Six, lever: Vector);
     /// Transforms the quantity to the axes before a motion.
     fn turn(&mut self, graph: &mut Graph, motion: &Local);
 }
@@ -88,7 +86,7 @@ impl Links {
     pub(super) fn accumulate<A: Accumulated>(
         &self,
         graph: &mut Graph,
-        errors: &[[Node; 6]],
+        errors: &[Six],
         skipped: usize,
         sum: A,
     ) -> A {
@@ -112,7 +110,7 @@ impl Links {
     pub(super) fn behind<A: Accumulated>(
         &self,
         graph: &mut Graph,
-        errors: &[[Node; 6]],
+        errors: &[Six],
         frame: usize,
         mut sum: A,
     ) -> (A, Vector) {
@@ -146,7 +144,7 @@ fn go_before<A: Accumulated>(graph: &mut Graph, motion: &Local, sum: &mut A, lev
 }
 
 /// Splits six values in the order of ε into translation and rotation, each x y z.
-pub(super) fn vectors(six: [Node; 6]) -> (Vector, Vector) {
+pub(super) fn vectors(six: Six) -> (Vector, Vector) {
     let (mut shift, mut turn) = ([six[0]; 3], [six[0]; 3]);
     for (component, node) in Component::ALL.into_iter().zip(six) {
         match motion(component) {
@@ -158,7 +156,7 @@ pub(super) fn vectors(six: [Node; 6]) -> (Vector, Vector) {
 }
 
 /// Combines translation and rotation to six values in the order of ε.
-pub(super) fn six(shift: Vector, turn: Vector) -> [Node; 6] {
+pub(super) fn six(shift: Vector, turn: Vector) -> Six {
     Component::ALL.map(|component| match motion(component) {
         (Motion::Translation, axis) => shift[axis],
         (Motion::Rotation, axis) => turn[axis],
@@ -184,7 +182,7 @@ impl Displacement {
     }
 
     /// Returns the six rows of ΔX.
-    pub(super) fn column(&self, graph: &mut Graph, rows: &Rows) -> [Node; 6] {
+    pub(super) fn column(&self, graph: &mut Graph, rows: &Rows) -> Six {
         rows.column(graph, self.shift, self.turn)
     }
 }
@@ -202,11 +200,11 @@ impl Accumulated for Displacement {
     }
 
     /// Returns ΔX as the only column.
-    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
+    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<Six> {
         vec![self.column(graph, rows)]
     }
 
-    fn add(&mut self, graph: &mut Graph, errors: [Node; 6], lever: Vector) {
+    fn add(&mut self, graph: &mut Graph, errors: Six, lever: Vector) {
         let (shift, turn) = vectors(errors);
         let swing = graph.cross(turn, lever);
         self.shift = graph.add_vectors(self.shift, shift);

@@ -2,20 +2,18 @@
 
 use abbe_spec::Spec;
 
-use super::EffectNode;
-use super::accumulate::{Displacement, Links};
-use super::rows::Rows;
-use crate::graph::{Graph, Node};
+use super::{Displacement, EffectNode, Links, Rows};
+use crate::graph::{Graph, Node, Six};
 
 /// Returns `ΔX = J_e ε`, accumulated along the chain.
-pub(super) fn along(graph: &mut Graph, links: &Links, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
+pub(super) fn along(graph: &mut Graph, links: &Links, rows: &Rows, errors: &[Six]) -> Six {
     let none = Displacement::none(graph);
     links.accumulate(graph, errors, 0, none).column(graph, rows)
 }
 
 /// Returns the six errors of every frame that each source causes alone; random sources at their
 /// standard deviation or magnitude.
-pub(super) fn errors_by_source(zero: Node, spec: &Spec, effects: &[EffectNode]) -> Vec<Vec<[Node; 6]>> {
+pub(super) fn errors_by_source(zero: Node, spec: &Spec, effects: &[EffectNode]) -> Vec<Vec<Six>> {
     let mut errors = vec![vec![[zero; 6]; spec.frames.len()]; spec.enabled_sources().count()];
     for effect in effects {
         errors[effect.source][effect.frame][effect.component as usize] = effect.value;
@@ -24,7 +22,7 @@ pub(super) fn errors_by_source(zero: Node, spec: &Spec, effects: &[EffectNode]) 
 }
 
 /// Returns `ΔX = J_e ε` from the columns of `J_e`.
-pub(super) fn product(graph: &mut Graph, columns: &[[Node; 6]], errors: &[[Node; 6]]) -> [Node; 6] {
+pub(super) fn product(graph: &mut Graph, columns: &[Six], errors: &[Six]) -> Six {
     let mut sum = [graph.zero(); 6];
     for (column, error) in columns.iter().zip(errors.as_flattened()) {
         for (sum, entry) in sum.iter_mut().zip(column) {

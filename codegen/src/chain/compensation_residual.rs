@@ -1,14 +1,9 @@
 //! Error left after one step of compensation, as nodes to be maximized.
 
-use abbe_spec::expr::{Elementary, Symbol};
-use abbe_spec::{ChainNumber, Factor, Spec};
+use abbe_spec::{ChainNumber, Elementary, Factor, Spec, Symbol};
 
-use super::accumulate::Links;
-use super::joint_columns::{JOINTS_OF_A_POSE, joint_step};
 use super::kinematics::of_repeatable;
-use super::magnitudes::Magnitude;
-use super::real::RealChain;
-use super::sources::{self, Causes};
+use super::{Causes, JOINTS_OF_A_POSE, Links, Magnitude, RealChain, joint_step, sources};
 use crate::graph::{Graph, Node, Vector};
 
 /// Deviation of the real tool from the ideal one after one step of compensation, `q′ = q − J_q⁻¹

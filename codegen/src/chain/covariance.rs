@@ -1,9 +1,7 @@
 //! Computes `J_e diag(σ²) J_eᵀ` without `J_e`.
 
-use super::accumulate::{Accumulated, vectors};
-use super::local::Local;
-use super::rows::Rows;
-use crate::graph::{Graph, Node, Vector, transposed};
+use super::{Accumulated, Local, Rows, vectors};
+use crate::graph::{Graph, Node, Six, Vector, transposed};
 
 type Matrix = [Vector; 3];
 
@@ -58,7 +56,7 @@ impl Accumulated for Covariance {
 
     /// Returns the 6 × 6 covariance of ΔX, with `PR Bᵀ` and `B RR Bᵀ`, where B maps the small
     /// rotation to rows 4–6.
-    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
+    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<Six> {
         let pr = self.pr.map(|row| rows.orientation_rows(graph, row));
         let half = transposed(&self.rr.map(|row| rows.orientation_rows(graph, row)));
         let rr = symmetric(half.map(|row| rows.orientation_rows(graph, row)));
@@ -67,7 +65,7 @@ impl Accumulated for Covariance {
         upper.chain(lower).collect()
     }
 
-    fn add(&mut self, graph: &mut Graph, variances: [Node; 6], [x, y, z]: Vector) {
+    fn add(&mut self, graph: &mut Graph, variances: Six, [x, y, z]: Vector) {
         let (shift, turn) = vectors(variances);
         let zero = graph.zero();
         let [minus_x, minus_y, minus_z] = graph.neg_vector([x, y, z]);
@@ -183,6 +181,6 @@ fn symmetric(m: Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| m[i.min(j)][i.max(j)]))
 }
 
-fn joined([a, b, c]: Vector, [d, e, f]: Vector) -> [Node; 6] {
+fn joined([a, b, c]: Vector, [d, e, f]: Vector) -> Six {
     [a, b, c, d, e, f]
 }

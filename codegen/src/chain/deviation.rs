@@ -7,13 +7,10 @@
 //! ε_i = vee(A_i⁻¹ ∂A_i/∂x) δx          and of the tool, after E_n:   ε_n = vee(∂T/∂x T⁻¹) δx
 //! ```
 
-use abbe_spec::expr::{Elementary, Function, Motion, Symbol};
-use abbe_spec::{ChainNumber, Factor, Spec};
+use abbe_spec::{ChainNumber, Elementary, Factor, Function, Motion, Spec, Symbol};
 
-use super::frame_twist::FrameTwist;
-use super::local::Local;
 use super::symbol_jacobian::{Steps, twist};
-use super::tree;
+use super::{FrameTwist, Local, tree};
 use crate::graph::{Graph, Node, Op, Vector};
 
 /// Returns the twist of every frame that depends on a number of the chain. The tool's twist is

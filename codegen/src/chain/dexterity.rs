@@ -2,8 +2,7 @@
 
 use abbe_spec::Spec;
 
-use super::accumulate::Links;
-use super::joint_columns::{JOINTS_OF_A_POINT, JOINTS_OF_A_POSE, at_tool, errors_of_joints, units};
+use super::{JOINTS_OF_A_POINT, JOINTS_OF_A_POSE, Links, at_tool, errors_of_joints, units};
 use crate::graph::{Graph, Node};
 
 /// Rows of `J_q` at the tool point, in metres and radians, one entry per joint. They are expressed

@@ -6,17 +6,15 @@
 //! point projects onto the beam: beyond M it acts at M, before the clamped end not at all.
 
 use abbe_core::Component;
-use abbe_spec::expr::{Function, Motion, Symbol, motion};
-use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
+use abbe_spec::{Axes, Beam, Cause, Effect, Function, Load, Motion, Point, Spec, Symbol, motion};
 
-use super::accumulate::{six, vectors};
 use super::deviation::transform_twists;
 use super::tree::{Parts, Reaction, length_slopes};
-use super::walk::transform;
-use crate::graph::{Frame, Graph, Node, Vector};
+use super::{six, transform, vectors};
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// Six errors per unit of force and moment, both in the order of ε.
-type Compliance = [[Node; 6]; 6];
+type Compliance = [Six; 6];
 
 /// A beam or compliance on the link of a frame.
 pub(super) struct Element<'a> {
@@ -110,12 +108,7 @@ impl<'a> Loads<'a> {
     }
 
     /// Returns the errors `ε = C w` of a compliance, in its axes.
-    pub(super) fn give_way(
-        &self,
-        graph: &mut Graph,
-        element: &Element<'_>,
-        compliance: &Compliance,
-    ) -> [Node; 6] {
+    pub(super) fn give_way(&self, graph: &mut Graph, element: &Element<'_>, compliance: &Compliance) -> Six {
         let there = graph.then(&self.frames[element.effect.frame], element.place);
         let mut carried = self.carried(graph, element);
         for weight in self.weights.iter().filter(|weight| weight.effect.frame == element.effect.frame) {
@@ -137,7 +130,7 @@ impl<'a> Loads<'a> {
     /// ```text
     /// (δ, θ) = C(L − ℓ) w        δ_M = δ + θ × ℓ a        θ_M = θ
     /// ```
-    pub(super) fn bend(&self, graph: &mut Graph, element: &Element<'_>, beam: &Beam) -> [Node; 6] {
+    pub(super) fn bend(&self, graph: &mut Graph, element: &Element<'_>, beam: &Beam) -> Six {
         let there = graph.then(&self.frames[element.effect.frame], element.place);
         let length = graph.lower(&beam.length);
         let axis = element.place.axes[beam.axis];
@@ -171,8 +164,7 @@ impl<'a> Loads<'a> {
             let shift = graph.add_vectors(shift, swing);
             sum = add(graph, sum, six(shift, turn));
         }
-        let own = self.weights.iter().find(|weight| std::ptr::eq(weight.effect, element.effect));
-        if let Some(weight) = own {
+        if let Some(weight) = self.weights.iter().find(|weight| std::ptr::eq(weight.effect, element.effect)) {
             let force = local(graph, &there.axes, weight.force);
             let under_own_weight = own_weight(graph, beam, length, force);
             sum = add(graph, sum, under_own_weight);
@@ -205,8 +197,7 @@ impl<'a> Loads<'a> {
                 sum = graph.add(sum, power);
             }
         }
-        let slopes = length_slopes(graph, self.spec, symbol);
-        for (reaction, slope) in self.reactions.iter().zip(slopes) {
+        for (reaction, slope) in self.reactions.iter().zip(length_slopes(graph, self.spec, symbol)) {
             let power = graph.mul(reaction.forces[0], slope);
             sum = graph.sub(sum, power);
         }
@@ -243,7 +234,7 @@ impl<'a> Loads<'a> {
     }
 
     /// Returns the force and moment of loads about a point, in the given axes and the order of ε.
-    fn wrench(&self, graph: &mut Graph, axes: &[Vector; 3], about: Vector, loads: &[Acting]) -> [Node; 6] {
+    fn wrench(&self, graph: &mut Graph, axes: &[Vector; 3], about: Vector, loads: &[Acting]) -> Six {
         let mut force = [graph.zero(); 3];
         let mut moment = force;
         for load in loads {
@@ -335,12 +326,12 @@ fn local(graph: &mut Graph, axes: &[Vector; 3], v: Vector) -> Vector {
     axes.map(|axis| graph.dot(axis, v))
 }
 
-fn add(graph: &mut Graph, a: [Node; 6], b: [Node; 6]) -> [Node; 6] {
+fn add(graph: &mut Graph, a: Six, b: Six) -> Six {
     std::array::from_fn(|i| graph.add(a[i], b[i]))
 }
 
 /// Returns `C w`.
-fn product(graph: &mut Graph, compliance: &Compliance, wrench: [Node; 6]) -> [Node; 6] {
+fn product(graph: &mut Graph, compliance: &Compliance, wrench: Six) -> Six {
     compliance.map(|row| graph.products(&row, &wrench))
 }
 
@@ -388,7 +379,7 @@ fn beam_compliance(graph: &mut Graph, beam: &Beam, length: Node) -> Compliance {
 /// ```text
 /// δ_a = w_a L²/2EA      δ_b = w_b L⁴/8EI_c      δ_c = w_c L⁴/8EI_b      θ_c = w_b L³/6EI_c      θ_b = −w_c L³/6EI_b
 /// ```
-fn own_weight(graph: &mut Graph, beam: &Beam, length: Node, force: Vector) -> [Node; 6] {
+fn own_weight(graph: &mut Graph, beam: &Beam, length: Node, force: Vector) -> Six {
     let mut errors = [graph.zero(); 6];
     let (a, b, c) = (beam.axis, beam.axis + 1, beam.axis + 2);
     let power = |graph: &mut Graph, exponent: f64, divisor: f64| {

@@ -27,16 +27,13 @@
 //! frames with a common origin there is nothing to compute.
 
 use abbe_core::Component;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Symbol, motion};
+use abbe_spec::{Spec, Symbol, motion};
 use indexmap::IndexMap;
 
-use super::accumulate::{Accumulated, Displacement, Links, vectors};
 use super::deviation::local_twist;
-use super::error_jacobian::Columns;
-use super::local::Local;
 use super::symbol_jacobian::{Steps, twist};
-use crate::graph::{Frame, Graph, Node, Vector};
+use super::{Accumulated, Columns, Displacement, Links, Local, vectors};
+use crate::graph::{Frame, Graph, Six, Vector};
 
 /// Number of frames, counted from `F_0`, whose axes are considered for all other frames.
 const FIRST: usize = 3;
@@ -262,7 +259,7 @@ fn equate_frames(graph: &mut Graph, a: Frame, b: Frame) {
 
 /// States at every frame that both forms are equal, and proposes to switch from one to the other
 /// there.
-pub(super) fn equate_at_origin(graph: &mut Graph, links: &Links, errors: &[[Node; 6]]) {
+pub(super) fn equate_at_origin(graph: &mut Graph, links: &Links, errors: &[Six]) {
     let zero = [graph.zero(); 3];
     let mut at_tool = Displacement::none(graph);
     let mut at_origin = zero;

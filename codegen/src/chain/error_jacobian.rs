@@ -13,11 +13,11 @@
 //! The tool point itself serves as such a frame, because every moment about it is 0.
 
 use abbe_core::Component;
-use abbe_spec::expr::{Motion, motion};
+use abbe_spec::{Motion, motion};
 
-use super::rows::Rows;
+use super::Rows;
 use super::walk::Step;
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// Parts of a frame's six columns: its axes, and the moments and rows 4–6 of the rotations `e_s e_r
 /// e_p`.
@@ -61,7 +61,7 @@ impl Columns {
     }
 
     /// Returns all entries of the six columns.
-    pub(crate) fn dense(&self, graph: &mut Graph) -> [[Node; 6]; 6] {
+    pub(crate) fn dense(&self, graph: &mut Graph) -> [Six; 6] {
         let zero = [graph.zero(); 3];
         Component::ALL.map(|component| {
             let ([a, b, c], [d, e, f]) = match motion(component) {
@@ -177,8 +177,7 @@ impl<'m> Moments<'m> {
 
     /// Returns `a × b` for two axes of one frame near frame i: ± its third axis.
     fn cross(&self, graph: &mut Graph, i: usize, a: Vector, b: Vector) -> Option<Vector> {
-        let near = self.frames[i.saturating_sub(1)..].iter().take(3).chain([self.tool]);
-        for frame in near {
+        for frame in self.frames[i.saturating_sub(1)..].iter().take(3).chain([self.tool]) {
             let find = |graph: &mut Graph, v: Vector| {
                 (0..3).find_map(|k| parallel(graph, frame.axes[k], v).map(|sign| (k, sign)))
             };

@@ -1,6 +1,6 @@
 //! Unknowns that equations define.
 
-use abbe_spec::expr::Symbol;
+use abbe_spec::Symbol;
 
 use crate::graph::{Graph, Node};
 

@@ -7,11 +7,9 @@
 use abbe_core::VariableKind;
 use abbe_spec::{ChainNumber, Spec};
 
-use super::accumulate::{Accumulated, Displacement, Links, six};
-use super::deviation::frame_twists;
-use super::local::Local;
 use super::minors::solve;
-use crate::graph::{Graph, Node, Vector};
+use super::{Accumulated, Displacement, Links, Local, frame_twists, six};
+use crate::graph::{Graph, Node, Six, Vector};
 
 /// Number of joints that control the full pose. With fewer, only the tool point is considered.
 pub(super) const JOINTS_OF_A_POSE: usize = 6;
@@ -19,7 +17,7 @@ pub(super) const JOINTS_OF_A_POSE: usize = 6;
 pub(super) const JOINTS_OF_A_POINT: usize = 3;
 
 /// Returns the effect of a unit of each joint, as errors of all frames.
-pub(super) fn errors_of_joints(graph: &mut Graph, spec: &Spec) -> Vec<Vec<[Node; 6]>> {
+pub(super) fn errors_of_joints(graph: &mut Graph, spec: &Spec) -> Vec<Vec<Six>> {
     let errors = |joint: usize| {
         let mut errors = vec![[graph.zero(); 6]; spec.frames.len()];
         for twist in frame_twists(graph, spec, ChainNumber::Joint(joint)) {
@@ -37,7 +35,7 @@ pub(super) fn units(spec: &Spec) -> Vec<f64> {
 }
 
 /// Returns the effect of errors of all frames on the tool point, in the axes of a frame.
-pub(super) fn at_tool(graph: &mut Graph, links: &Links, errors: &[[Node; 6]], frame: usize) -> Displacement {
+pub(super) fn at_tool(graph: &mut Graph, links: &Links, errors: &[Six], frame: usize) -> Displacement {
     let origin = [graph.zero(); 3];
     let lever = (frame + 1..=errors.len()).rev().fold(origin, |point, link| links.point(graph, link, point));
     let there = at_origin(graph, links, errors, frame);
@@ -46,13 +44,8 @@ pub(super) fn at_tool(graph: &mut Graph, links: &Links, errors: &[[Node; 6]], fr
 
 /// Returns the effect of errors of all frames on the point of the tool at the origin of a frame, in
 /// its axes.
-pub(super) fn at_origin(
-    graph: &mut Graph,
-    links: &Links,
-    errors: &[[Node; 6]],
-    frame: usize,
-) -> Displacement {
-    let take_in = |graph: &mut Graph, sum: &mut Displacement, errors: &[Node; 6]| {
+pub(super) fn at_origin(graph: &mut Graph, links: &Links, errors: &[Six], frame: usize) -> Displacement {
+    let take_in = |graph: &mut Graph, sum: &mut Displacement, errors: &Six| {
         let here = [graph.zero(); 3];
         sum.add(graph, *errors, here);
     };
@@ -101,12 +94,7 @@ pub(super) struct Equations {
 
 /// Returns the joint motion `−J_q⁻¹ J_e ε` in the units of the joints. With redundant joints it is
 /// the shortest one, measured in metres and radians. Returns `None` for fewer than three joints.
-pub(super) fn joint_step(
-    graph: &mut Graph,
-    spec: &Spec,
-    links: &Links,
-    errors: &[[Node; 6]],
-) -> Option<Vec<Node>> {
+pub(super) fn joint_step(graph: &mut Graph, spec: &Spec, links: &Links, errors: &[Six]) -> Option<Vec<Node>> {
     if spec.variables.len() < JOINTS_OF_A_POINT {
         return None;
     }
@@ -120,15 +108,9 @@ pub(super) fn joint_step(
 }
 
 impl Equations {
-    fn at(
-        graph: &mut Graph,
-        links: &Links,
-        joints: &[Vec<[Node; 6]>],
-        errors: &[[Node; 6]],
-        frame: usize,
-    ) -> Self {
+    fn at(graph: &mut Graph, links: &Links, joints: &[Vec<Six>], errors: &[Six], frame: usize) -> Self {
         let is_pose = joints.len() >= JOINTS_OF_A_POSE;
-        let mut rows = |errors: &[[Node; 6]]| match is_pose {
+        let mut rows = |errors: &[Six]| match is_pose {
             true => {
                 let there = at_origin(graph, links, errors, frame);
                 [there.shift, there.turn].concat()

@@ -1,11 +1,10 @@
 //! Kinematics of frames, which a chain and a tree of frames have in forms of their own.
 
 use abbe_core::Class;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
-use super::rows::Rows;
-use crate::graph::{Frame, Graph, Node, Vector};
+use super::Rows;
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// Kinematics of frames, from which all nodes are built in the order of the methods.
 pub(crate) trait Kinematics {
@@ -14,7 +13,7 @@ pub(crate) trait Kinematics {
 
     /// Returns the six columns of `J_e` of each frame, and for each frame its entries that are
     /// neither zero nor repeated.
-    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<[Node; 6]>, Vec<Vec<Node>>);
+    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<Six>, Vec<Vec<Node>>);
 
     /// Returns the velocity of the tool point and the rotation per unit of each symbol.
     fn twists(&self, graph: &mut Graph, symbols: &[Symbol]) -> Vec<[Vector; 2]>;
@@ -23,11 +22,10 @@ pub(crate) trait Kinematics {
     fn prepare_sums(&mut self, graph: &mut Graph, spec: &Spec) -> Option<Option<Node>>;
 
     /// Returns `J_e ε`, summed over the frames.
-    fn displacement(&self, graph: &mut Graph, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6];
+    fn displacement(&self, graph: &mut Graph, rows: &Rows, errors: &[Six]) -> Six;
 
     /// Returns the columns of `J_e diag(σ²) J_eᵀ`.
-    fn covariance(&self, graph: &mut Graph, columns: &[[Node; 6]], variances: &[[Node; 6]])
-    -> Vec<[Node; 6]>;
+    fn covariance(&self, graph: &mut Graph, columns: &[Six], variances: &[Six]) -> Vec<Six>;
 }
 
 /// Returns the magnitudes that select the repeatable sources, and the symbols of all.

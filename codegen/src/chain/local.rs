@@ -4,8 +4,7 @@
 //! again. So is its position as far as it lies along the rotated axes: `(a cos q, a sin q, 0)` is a
 //! translation by a constant after the rotation.
 
-use abbe_spec::Factor;
-use abbe_spec::expr::{Elementary, Motion};
+use abbe_spec::{Elementary, Factor, Motion};
 
 use super::walk::about;
 use crate::graph::{Frame, Graph, Node, Op, Vector};

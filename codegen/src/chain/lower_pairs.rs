@@ -3,8 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use abbe_spec::expr::{Elementary, Expression, Motion, Symbol};
-use abbe_spec::{Factor, Frame, Spec};
+use abbe_spec::{Elementary, Expression, Factor, Frame, Motion, Spec, Symbol};
 
 use crate::graph::{Graph, Node};
 

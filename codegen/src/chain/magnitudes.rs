@@ -6,16 +6,12 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use abbe_core::Orientation;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Function, Symbol};
+use abbe_spec::{Function, Spec, Symbol};
 
-use super::accumulate::{Displacement, Links, vectors};
 use super::by_source::errors_by_source;
-use super::implicit::Implicit;
-use super::rows::Rows;
-use super::sources;
 use super::tree::Parts;
-use crate::graph::{Graph, Node, Vector};
+use super::{Displacement, Implicit, Links, Rows, sources, vectors};
+use crate::graph::{Graph, Node, Six, Vector};
 
 /// Magnitude of an error of the tool point.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,8 +97,8 @@ pub struct PerFrameMagnitudes {
 
 /// Returns the radius of a ball with these parts, if they are displacements of one frame along x, y
 /// and z, as large in all directions.
-fn radius_of<'a>(zero: Node, parts: impl Iterator<Item = &'a Vec<[Node; 6]>>) -> Option<Node> {
-    let entries = |errors: &Vec<[Node; 6]>| {
+fn radius_of<'a>(zero: Node, parts: impl Iterator<Item = &'a Vec<Six>>) -> Option<Node> {
+    let entries = |errors: &Vec<Six>| {
         let all = errors.as_flattened().iter().copied().enumerate();
         all.filter(|(_, error)| *error != zero).collect::<Vec<_>>()
     };
@@ -123,8 +119,8 @@ fn radius_of<'a>(zero: Node, parts: impl Iterator<Item = &'a Vec<[Node; 6]>>) ->
 }
 
 /// Returns ‖d‖ and ‖θ‖ of the errors of each frame.
-fn sizes_apart(graph: &mut Graph, errors: &[[Node; 6]]) -> Vec<[Magnitude; 2]> {
-    let sizes = |errors: &[Node; 6]| {
+fn sizes_apart(graph: &mut Graph, errors: &[Six]) -> Vec<[Magnitude; 2]> {
+    let sizes = |errors: &Six| {
         let (shift, turn) = vectors(*errors);
         [shift, turn].map(|vector| Magnitude::length(graph, vector))
     };
@@ -175,7 +171,7 @@ impl Magnitudes {
                 places.push(if source.is_calibration_error() { k } else { spec.whole(k) });
                 let bound = g.constant(distribution.bound());
                 let at_bound = errors.iter().map(|errors| errors.map(|error| g.mul(bound, error)));
-                let at_bound: Vec<[Node; 6]> = at_bound.collect();
+                let at_bound: Vec<Six> = at_bound.collect();
                 apart.random.push(sizes_apart(g, &at_bound));
                 random.push(at_bound);
             }
@@ -199,7 +195,7 @@ impl Magnitudes {
         let all = [&repeatable[..], &random].concat();
         let with_sum: Vec<usize> = [usize::MAX].into_iter().chain(places.iter().copied()).collect();
         let kinds = [(repeatable, vec![usize::MAX], zero), (random, places, radius), (all, with_sum, radius)];
-        let moves = |errors: &[Node; 6]| *errors != [zero; 6];
+        let moves = |errors: &Six| *errors != [zero; 6];
         let [repeatable, random, total] = kinds.map(|(kind, places, radius)| {
             let first = kind.iter().filter_map(|errors| errors.iter().position(moves)).min();
             let first = first.unwrap_or(spec.frames.len());
@@ -322,14 +318,7 @@ fn direction(graph: &mut Graph, entries: usize) -> Vec<Node> {
 impl ToolDisplacement {
     /// Computes the displacement by errors; `shift` is in the axes of frame `first`, before which
     /// there are none.
-    fn by(
-        graph: &mut Graph,
-        spec: &Spec,
-        links: &Links,
-        rows: &Rows,
-        errors: &[[Node; 6]],
-        first: usize,
-    ) -> Self {
+    fn by(graph: &mut Graph, spec: &Spec, links: &Links, rows: &Rows, errors: &[Six], first: usize) -> Self {
         let none = Displacement::none(graph);
         let (Displacement { shift, mut turn }, _) = links.behind(graph, errors, first, none);
         let none = Displacement::none(graph);
@@ -343,7 +332,7 @@ impl ToolDisplacement {
     }
 
     /// Computes the displacement of a tree of frames.
-    fn of_tree(graph: &mut Graph, spec: &Spec, parts: &Parts, rows: &Rows, errors: &[[Node; 6]]) -> Self {
+    fn of_tree(graph: &mut Graph, spec: &Spec, parts: &Parts, rows: &Rows, errors: &[Six]) -> Self {
         let [shift, turn] = parts.by_errors(graph, errors);
         let [x, y, z, four, five, six] = rows.column(graph, shift, turn);
         let turn = if spec.orientation == Orientation::RotationVector { turn } else { [four, five, six] };

@@ -22,8 +22,7 @@ pub(super) fn minors(graph: &mut Graph, rows: &[Vec<Node>]) -> Vec<Node> {
         let mut next = vec![zero; 1 << columns];
         for (set, minor) in next.iter_mut().enumerate().filter(|(set, _)| set.count_ones() as usize == k + 1)
         {
-            let members = (0..columns).filter(|column| set >> column & 1 == 1);
-            for (place, column) in members.enumerate() {
+            for (place, column) in (0..columns).filter(|column| set >> column & 1 == 1).enumerate() {
                 let product = graph.mul(row[column], known[set & !(1 << column)]);
                 *minor = match (k + place) % 2 {
                     0 => graph.add(*minor, product),

@@ -43,6 +43,12 @@ mod tool_compliance;
 mod tree;
 mod walk;
 
+use accumulate::{Links, six, vectors};
+use elastic::{Element, Loads};
+use joint_columns::{JOINTS_OF_A_POINT, JOINTS_OF_A_POSE, at_tool, errors_of_joints, joint_step, units};
+use real::RealChain;
+use sources::{Causes, PlacedErrors, elastic_errors};
+
 pub(crate) use accumulate::{Accumulated, Displacement};
 pub use compensation_residual::CompensationResidual;
 pub(crate) use covariance::Covariance;

@@ -13,14 +13,11 @@
 //! To first order the order does not matter.
 
 use abbe_core::Component;
-use abbe_spec::expr::{Expression, Motion, Symbol, motion};
-use abbe_spec::{ChainNumber, Factor, Spec};
+use abbe_spec::{ChainNumber, Expression, Factor, Motion, Spec, Symbol, motion};
 
-use super::accumulate::Links;
-use super::local::Local;
-use super::sources::Causes;
-use super::walk::{apply_with, transform, walk};
-use crate::graph::{Frame, Graph, Node, Vector, in_programs};
+use super::walk::{apply_with, walk};
+use super::{Causes, Links, Local, transform};
+use crate::graph::{Frame, Graph, Node, Six, Vector, in_programs};
 
 /// The chain with the errors of all sources, each times its magnitude.
 pub(super) struct RealChain<'a> {
@@ -129,7 +126,7 @@ impl<'a> RealChain<'a> {
     /// Returns the six errors of every frame that make the nominal chain the real one. `E_i` is the
     /// product of all motions that follow the nominal `A_i`; the last one includes the tool's part,
     /// `T(s + δs) T⁻¹`.
-    pub(super) fn errors(&self, graph: &mut Graph) -> Vec<[Node; 6]> {
+    pub(super) fn errors(&self, graph: &mut Graph) -> Vec<Six> {
         let last = self.spec.frames.len();
         let errors = |graph: &mut Graph, frame: usize| {
             let of_tool = frame + 1 == last && self.is_changed(last);
@@ -220,7 +217,7 @@ impl<'a> RealChain<'a> {
 
     /// Returns the poses on the link of a frame that have errors, with these errors. Those of `F_0`
     /// are the first: they precede `A_1` with the deviations of its numbers.
-    fn located(&self, graph: &mut Graph, frame: usize) -> Vec<(Frame, [Node; 6])> {
+    fn located(&self, graph: &mut Graph, frame: usize) -> Vec<(Frame, Six)> {
         let zero = graph.zero();
         let at_frame = self.causes.errors.iter().filter(|caused| caused.frame == frame);
         let (of_base, others): (Vec<_>, Vec<_>) = at_frame.partition(|caused| caused.of_base.is_some());
@@ -238,7 +235,7 @@ impl<'a> RealChain<'a> {
     }
 
     /// Returns the sum of the errors at a frame itself: within each source, then over the sources.
-    fn plain(&self, graph: &mut Graph, frame: usize) -> [Node; 6] {
+    fn plain(&self, graph: &mut Graph, frame: usize) -> Six {
         let mut sums = [graph.zero(); 6];
         for (source, magnitude) in self.magnitudes.iter().enumerate() {
             let mut of_source = [graph.zero(); 6];
@@ -259,7 +256,7 @@ impl<'a> RealChain<'a> {
 
 /// Returns a pose times `E = T(e_x, e_y, e_z) R_y(e_s) R_z(e_r) R_x(e_p)`, with errors in the order
 /// of ε.
-pub(crate) fn displaced(graph: &mut Graph, mut pose: Frame, errors: &[Node; 6]) -> Frame {
+pub(crate) fn displaced(graph: &mut Graph, mut pose: Frame, errors: &Six) -> Frame {
     for (component, error) in Component::ALL.into_iter().zip(errors) {
         if *error == graph.zero() {
             continue;
@@ -273,7 +270,7 @@ pub(crate) fn displaced(graph: &mut Graph, mut pose: Frame, errors: &[Node; 6]) 
 }
 
 /// Returns the six errors whose E is a given motion: position, and `R = R_y(σ) R_z(ρ) R_x(π)`.
-fn errors_of_motion(graph: &mut Graph, motion: &Frame) -> [Node; 6] {
+fn errors_of_motion(graph: &mut Graph, motion: &Frame) -> Six {
     let ([x, y, z], [e_x, e_y, e_z]) = (motion.axes, motion.position);
     let (squares, minus) = ([x[0], x[2]].map(|entry| graph.mul(entry, entry)), graph.neg(x[2]));
     let sum = graph.add(squares[0], squares[1]);

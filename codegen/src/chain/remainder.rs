@@ -1,14 +1,10 @@
 //! Remainder of the first-order prediction, as a node to be maximized.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
-use super::implicit::Implicit;
 use super::kinematics::of_repeatable;
-use super::magnitudes::Magnitude;
-use super::real::RealChain;
-use super::sources;
 use super::tree::curvature;
+use super::{Implicit, Magnitude, RealChain, sources};
 use crate::graph::Graph;
 
 /// Remainder of the tool point's position after `J_e ε` of the repeatable sources.

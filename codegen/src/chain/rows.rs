@@ -2,7 +2,7 @@
 
 use abbe_core::Orientation;
 
-use crate::graph::{Graph, Node, Vector};
+use crate::graph::{Graph, Node, Six, Vector};
 
 /// Map from a small rotation ω in `F_0` to rows 4–6.
 pub(crate) enum Rows {
@@ -105,7 +105,7 @@ impl Rows {
     }
 
     /// Returns a column from the velocity of the tool point and the rotation ω.
-    pub(crate) fn column(&self, graph: &mut Graph, velocity: Vector, omega: Vector) -> [Node; 6] {
+    pub(crate) fn column(&self, graph: &mut Graph, velocity: Vector, omega: Vector) -> Six {
         let [x, y, z] = velocity;
         let [four, five, six] = self.orientation_rows(graph, omega);
         [x, y, z, four, five, six]

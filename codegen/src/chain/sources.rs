@@ -4,15 +4,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use abbe_core::{Class, Component};
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Cause, ChainNumber, Deviation, DeviationCause, Effect, Identified, Source, Spec, Uncertain};
+use abbe_spec::{
+    Cause, ChainNumber, Deviation, DeviationCause, Effect, Identified, Source, Spec, Symbol, Uncertain,
+};
 
-use super::accumulate::{six, vectors};
-use super::deviation::frame_twists;
-use super::elastic::{Element, Loads};
-use super::frame_twist::FrameTwist;
-use super::walk::{transform, walk};
-use crate::graph::{Frame, Graph, Node};
+use super::walk::walk;
+use super::{Element, FrameTwist, Loads, frame_twists, six, transform, vectors};
+use crate::graph::{Frame, Graph, Node, Six};
 
 /// One generalized error that a source causes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +61,7 @@ pub(super) struct PlacedErrors {
     /// Pose of the place relative to `F_0`, for errors of `F_0`.
     pub(super) of_base: Option<Frame>,
     /// The errors in the axes of the place.
-    pub(super) errors: [Node; 6],
+    pub(super) errors: Six,
 }
 
 /// Deviation of a number of the chain.
@@ -139,7 +137,7 @@ pub(super) fn effects_in<'a>(
     loads: impl Fn(usize) -> &'a Loads<'a>,
 ) -> (Vec<EffectNode>, Causes) {
     let zero = graph.zero();
-    let mut all: Vec<Vec<[Node; 6]>> = Vec::new();
+    let mut all: Vec<Vec<Six>> = Vec::new();
     let mut causes = Causes::default();
     for (source, declared) in spec.enabled_sources().enumerate() {
         // Several effects of one source on one error of one frame are added to one effect.
@@ -195,7 +193,7 @@ pub(super) fn effects_in<'a>(
 /// ```text
 /// Σ_x σ ∂ε/∂x        ε: sum of the repeatable sources
 /// ```
-fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<[Node; 6]>]) -> Vec<[Node; 6]> {
+fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<Six>]) -> Vec<Six> {
     let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
     for (uncertain, factor) in &source.propagated {
         let factor = graph.constant(source.scale * factor);
@@ -229,8 +227,7 @@ fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<[Node;
             Uncertain::Identified(Identified::Base(component)) => {
                 let mut there = [graph.zero(); 6];
                 there[*component as usize] = graph.constant(1.0);
-                let on_base = spec.frames.iter().enumerate().filter(|(_, frame)| frame.parent.is_none());
-                for (i, frame) in on_base {
+                for (i, frame) in spec.frames.iter().enumerate().filter(|(_, frame)| frame.parent.is_none()) {
                     let first = transform(graph, &frame.factors);
                     let place = graph.inverse(&first);
                     unscaled[i] = at_frame(graph, &place, there);
@@ -254,7 +251,7 @@ fn times(graph: &mut Graph, source: &Source) -> Node {
 }
 
 /// Returns the errors of the enabled repeatable beams and compliances under loads, six per frame.
-pub(super) fn elastic_errors(graph: &mut Graph, spec: &Spec, loads: &Loads<'_>) -> Vec<[Node; 6]> {
+pub(super) fn elastic_errors(graph: &mut Graph, spec: &Spec, loads: &Loads<'_>) -> Vec<Six> {
     let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
     for source in spec.enabled_sources().filter(|source| source.class == Class::Repeatable) {
         let times = times(graph, source);
@@ -296,21 +293,21 @@ fn deviation_error<'a>(
 }
 
 /// Adds the errors that a deviation causes at the frames with these twists.
-fn add_deviation(graph: &mut Graph, sums: &mut [[Node; 6]], twists: &[FrameTwist], error: Node) {
+fn add_deviation(graph: &mut Graph, sums: &mut [Six], twists: &[FrameTwist], error: Node) {
     for twist in twists {
         let (shift, turn) = (graph.scale(error, twist.velocity), graph.scale(error, twist.rotation));
         add(graph, &mut sums[twist.frame], six(shift, turn));
     }
 }
 
-fn add(graph: &mut Graph, sums: &mut [Node; 6], errors: [Node; 6]) {
+fn add(graph: &mut Graph, sums: &mut Six, errors: Six) {
     for (sum, error) in sums.iter_mut().zip(errors) {
         *sum = graph.add(*sum, error);
     }
 }
 
 /// Returns ε, the sum of the repeatable sources, six errors per frame.
-pub(super) fn generalized_errors(graph: &mut Graph, spec: &Spec, effects: &[EffectNode]) -> Vec<[Node; 6]> {
+pub(super) fn generalized_errors(graph: &mut Graph, spec: &Spec, effects: &[EffectNode]) -> Vec<Six> {
     let sources: Vec<&Source> = spec.enabled_sources().collect();
     let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
     for effect in effects.iter().filter(|effect| sources[effect.source].class == Class::Repeatable) {
@@ -325,7 +322,7 @@ pub(super) fn generalized_errors(graph: &mut Graph, spec: &Spec, effects: &[Effe
 /// ```text
 /// θ_i = R_L θ_M        d_i = R_L d_M + p_L × θ_i
 /// ```
-fn at_frame(graph: &mut Graph, place: &Frame, there: [Node; 6]) -> [Node; 6] {
+fn at_frame(graph: &mut Graph, place: &Frame, there: Six) -> Six {
     let (shift, turn) = vectors(there);
     let turn = graph.turn(&place.axes, turn);
     let lever = graph.cross(place.position, turn);
@@ -339,7 +336,7 @@ fn at_place<'a>(
     effect: &Effect,
     place: &Frame,
     loads: impl Fn(usize) -> &'a Loads<'a>,
-) -> [Node; 6] {
+) -> Six {
     match &effect.cause {
         Cause::Errors(errors) => {
             let mut six = [graph.zero(); 6];

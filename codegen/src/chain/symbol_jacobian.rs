@@ -4,12 +4,11 @@
 
 use std::collections::HashMap;
 
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Factor, Spec};
+use abbe_spec::{Factor, Spec, Symbol};
 use indexmap::IndexMap;
 
 use super::walk::{Step, walk};
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Six, Vector};
 
 /// Returns the velocity of the tool point and the rotation per unit of a symbol, the sum over all
 /// factors that depend on it:
@@ -106,7 +105,7 @@ pub struct LocalTwist {
     /// Index of the symbol.
     pub column: usize,
     /// Velocity and rotation.
-    pub twist: [Node; 6],
+    pub twist: Six,
 }
 
 /// Returns the nonzero twists `dA_i/dx A_i⁻¹`, transform by transform.

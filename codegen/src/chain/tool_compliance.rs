@@ -4,10 +4,7 @@
 use abbe_core::Class;
 use abbe_spec::{Source, Spec};
 
-use super::accumulate::Links;
-use super::elastic::Loads;
-use super::joint_columns::at_tool;
-use super::sources::elastic_errors;
+use super::{Links, Loads, at_tool, elastic_errors};
 use crate::graph::{Graph, Node};
 
 /// Compliance of the tool point due to the enabled repeatable elastic sources, in the spec's

@@ -1,7 +1,6 @@
 //! Follows the chain factor by factor: equation (2).
 
-use abbe_spec::Factor;
-use abbe_spec::expr::{Elementary, Expression, Motion, Symbol};
+use abbe_spec::{Elementary, Expression, Factor, Motion, Symbol};
 
 use crate::graph::{Frame, Graph, Node, Vector};
 

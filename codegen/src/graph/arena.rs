@@ -6,7 +6,7 @@ mod tests;
 
 use std::sync::Arc;
 
-use abbe_spec::expr::{Function, Lookup, Symbol, Table};
+use abbe_spec::{Function, Lookup, Symbol, Table};
 use indexmap::{IndexMap, IndexSet};
 use rustc_hash::FxBuildHasher;
 

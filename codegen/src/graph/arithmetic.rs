@@ -3,7 +3,7 @@
 //!
 //! Signs move outwards until a sum absorbs them, so that a term and its negative share one node.
 
-use abbe_spec::expr::{Function, Symbol};
+use abbe_spec::{Function, Symbol};
 
 use super::{Graph, Node, Op};
 
@@ -149,8 +149,7 @@ impl Graph {
             (_, Some(1.0)) => return a,
             _ => {}
         }
-        let product = self.with_signs_outside(a, b, Self::mul);
-        product.unwrap_or_else(|| self.intern(Op::Mul(a.min(b), a.max(b))))
+        self.with_signs_outside(a, b, Self::mul).unwrap_or_else(|| self.intern(Op::Mul(a.min(b), a.max(b))))
     }
 
     /// Returns `a / b`. `0/b` and `a/1` simplify, signs move outwards. A division by a constant 0
@@ -172,8 +171,7 @@ impl Graph {
             (Some(0.0), None) => return a,
             _ => {}
         }
-        let quotient = self.with_signs_outside(a, b, Self::div);
-        quotient.unwrap_or_else(|| self.intern(Op::Div(a, b)))
+        self.with_signs_outside(a, b, Self::div).unwrap_or_else(|| self.intern(Op::Div(a, b)))
     }
 
     /// Returns a product or quotient with the signs of its operands moved outwards; `None` without

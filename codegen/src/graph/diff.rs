@@ -1,6 +1,6 @@
 //! Derivatives of nodes by a symbol, by forward accumulation.
 
-use abbe_spec::expr::{Function, Lookup, Symbol};
+use abbe_spec::{Function, Lookup, Symbol};
 
 use super::{Graph, Node, Op};
 

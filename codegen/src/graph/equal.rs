@@ -1,8 +1,8 @@
 //! Equalities between nodes with different operations. A program computes the cheapest member of a
 //! class.
 
-use super::arena::{Classes, Graph, Node, Op, Signed};
-use super::vector::Vector;
+use super::arena::Classes;
+use super::{Graph, Node, Op, Signed, Vector};
 
 impl Graph {
     /// States that two nodes are equal for all values of the symbols.

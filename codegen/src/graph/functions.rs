@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use abbe_spec::expr::{Function, Lookup};
+use abbe_spec::{Function, Lookup};
 
 use super::{Graph, Node, Op};
 

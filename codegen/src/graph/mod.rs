@@ -16,4 +16,4 @@ mod vector;
 pub use arena::{Graph, Node, Op, Signed};
 pub(crate) use lower::in_programs;
 pub(crate) use vector::transposed;
-pub use vector::{Frame, Vector};
+pub use vector::{Frame, Six, Vector};

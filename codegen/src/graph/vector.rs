@@ -5,6 +5,9 @@ use super::{Graph, Node};
 /// Three nodes: the x, y and z components.
 pub type Vector = [Node; 3];
 
+/// Six nodes: errors, velocities or loads in the order of ε, or a column of a Jacobian.
+pub type Six = [Node; 6];
+
 /// A rigid motion as nodes: rotation matrix by columns, and position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {

@@ -3,9 +3,7 @@
 //! A step without a name that is used once is written inline, as long as the expression stays
 //! narrow. The order of the arithmetic, and so every bit of the result, stays the same.
 
-use super::expression::{Binding, Expression, Statement, Syntax, Value};
-use super::layout::{NARROW, width};
-use super::names::Names;
+use super::{Binding, Expression, NARROW, Names, Statement, Syntax, Value, width};
 use crate::program::{Action, Operand, Program, Step};
 
 /// Returns the statements of a program and its outputs.

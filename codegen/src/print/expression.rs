@@ -4,9 +4,9 @@
 
 use std::borrow::Cow;
 
-use abbe_spec::expr::{Function, Lookup};
+use abbe_spec::{Function, Lookup};
 
-use super::names::Identifiers;
+use super::Identifiers;
 use crate::program::{Action, ArrayRows, Repeated, Row};
 
 /// Precedence of the outermost operator of an expression.

@@ -1,6 +1,6 @@
 //! Flat arrays of a routine, for languages without arrays of arrays.
 
-use super::layout::{NARROW, Writer, width};
+use super::{NARROW, Writer, width};
 use crate::program::{ArrayRows, Block, Role, Routine, Routines, Row, Stage};
 
 /// Memory of the results of a function.

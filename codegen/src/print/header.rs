@@ -4,7 +4,7 @@ use abbe_core::{Function, Orientation};
 use abbe_spec::expr::{Binary, Expression, Extrapolation, Function as Call, Interpolation, Kind, Term};
 use abbe_spec::{Closure, Factor, Loop, Spec};
 
-use super::layout::{Writer, escaped};
+use super::{Writer, escaped};
 use crate::program::{Block, Routine, Routines, Stage};
 
 /// Returns the names of rows 1–6.
@@ -129,8 +129,7 @@ fn one_sided(spec: &Spec) -> Option<String> {
     for (name, factors) in frames.chain([("the tool".to_owned(), &spec.tool)]) {
         let mut places: Vec<String> = Vec::new();
         for term in factors.iter().flat_map(Factor::expressions).flat_map(Expression::terms) {
-            let place = place_without_derivative(spec, term).filter(|place| !places.contains(place));
-            places.extend(place);
+            places.extend(place_without_derivative(spec, term).filter(|place| !places.contains(place)));
         }
         if !places.is_empty() {
             found.push(format!("{name}: {}", places.join(", ")));

@@ -168,8 +168,7 @@ impl Writer {
 
     /// Appends `before[first, second, …]after`.
     pub(super) fn array(&mut self, before: &str, entries: &[String], after: &str) {
-        let lines = array(self.indent(), before, entries, after);
-        self.lines(&lines);
+        self.lines(&array(self.indent(), before, entries, after));
     }
 }
 

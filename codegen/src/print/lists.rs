@@ -7,7 +7,7 @@ use abbe_core::compensator::{CHANGE, LARGEST, Status, bound};
 use abbe_spec::Spec;
 use abbe_spec::literal::quoted;
 
-use super::layout::Writer;
+use super::Writer;
 use crate::program::{Operand, Program, Routines, Sums, Table};
 
 /// A list of whole or real numbers.

@@ -36,6 +36,16 @@ use crate::chain::Model;
 use crate::procedure::Precision;
 use crate::program::Routines;
 
+use expression::{Binding, Expression, Statement, Syntax, Value, arithmetic, infix, literal};
+use flat::{Flat, Results, filled};
+use layout::{
+    LINE, NARROW, NOT_CLOSED, OPEN, Writer, array, call, described, escaped, fits, harmless, pattern, sizes,
+    width, wrapped,
+};
+use names::{Identifiers, Names, distinct, file_name, function_of, renamed};
+use procedure::{Called, Invocation, Printer, arrays, commands};
+use statements::Statements;
+
 /// A target language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {

@@ -4,8 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::fmt::Display;
 
 use abbe_core::{Component, Function};
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use crate::program::{Action, Array, Operand, Program, Routine, Stage};
 

@@ -8,9 +8,8 @@
 use abbe_core::function::{COMMANDS, Signature};
 use abbe_spec::Spec;
 
-use super::expression::{Binding, Expression, Value as Entry, infix};
-use super::flat::{Results, filled};
-use super::layout::Writer;
+use super::expression::Value as Entry;
+use super::{Binding, Expression, Results, Writer, filled, infix};
 use crate::procedure::{
     Binary, Condition, Counter, Index, Kind, Precision, Procedure, Statement, Unary, Value, Variable, Whole,
     compensated,
@@ -171,8 +170,7 @@ pub(super) trait Printer {
     /// Declares a local array with values, given as its entries.
     fn create(&mut self, name: &str, entries: &[(String, &Entry)]) {
         self.zeros(name, entries.len());
-        let others = entries.iter().filter(|(_, value)| !value.is_zero).cloned();
-        self.assign_all(&others.collect::<Vec<_>>());
+        self.assign_all(&entries.iter().filter(|(_, value)| !value.is_zero).cloned().collect::<Vec<_>>());
     }
 
     /// Prints a copy of an array.
@@ -341,8 +339,7 @@ pub(super) trait Printer {
             Value::Element(array, index) => Expression::name(self.at(array, &index.to_string())),
             Value::Unary(Unary::Negative, operand) => {
                 // `-` binds less than `*` in some languages.
-                let text = format!("-{}", self.value(operand).at_least(Binding::Atom));
-                Expression::new(text, Binding::Choice)
+                Expression::new(format!("-{}", self.value(operand).at_least(Binding::Atom)), Binding::Choice)
             }
             Value::Unary(Unary::Absolute, operand) => called(Called::Absolute, std::slice::from_ref(operand)),
             Value::Unary(Unary::Root, operand) => called(Called::Root, std::slice::from_ref(operand)),

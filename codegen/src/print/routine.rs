@@ -1,8 +1,6 @@
 //! Prints the statements of routines: what is the same in every language with flat arrays.
 
-use super::expression::{Statement, Value};
-use super::flat::{Flat, Results};
-use super::procedure::{Invocation, Printer};
+use super::{Flat, Invocation, Printer, Results, Statement, Value};
 use crate::program::{ArrayRows, Role, Sums};
 
 /// Prints statements, and returns the margin if it is returned.

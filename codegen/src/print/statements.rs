@@ -4,13 +4,10 @@ use std::collections::HashSet;
 
 use abbe_core::Description;
 use abbe_core::function::Count;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::body::body;
-use super::expression::{Statement, Syntax, Value};
-use super::flat::Flat;
-use super::names::Names;
+use super::{Flat, Names, Statement, Syntax, Value};
 use crate::program::{ArrayRows, Block, Operand, Program, Role, Routine, Routines, Row, Stage};
 
 /// The statements of a routine.
@@ -136,8 +133,7 @@ impl Writer<'_> {
     fn stage(&mut self, stage: &Stage, statements: &mut Vec<Statement>) {
         match stage {
             Stage::Block(block) => {
-                let places = block.reads.iter().chain(&block.writes).map(|place| place.array);
-                let fresh = self.begin(places);
+                let fresh = self.begin(block.reads.iter().chain(&block.writes).map(|place| place.array));
                 let (whole, others): (Vec<_>, Vec<_>) =
                     fresh.into_iter().partition(|array| self.is_filled_at_once(block, *array));
                 self.whole = whole;

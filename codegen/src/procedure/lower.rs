@@ -8,8 +8,7 @@ impl Procedure {
     pub fn with_loops(mut self) -> Self {
         let mut sums = 0;
         self.body = lowered(std::mem::take(&mut self.body), &mut sums);
-        let locals = NAMES[..sums].iter().map(|name| Variable { name, kind: Kind::Real });
-        self.locals.extend(locals);
+        self.locals.extend(NAMES[..sums].iter().map(|name| Variable { name, kind: Kind::Real }));
         self
     }
 }

@@ -4,7 +4,7 @@
 //! The symbols are within a box around 0. Products and sums of bounded numbers are bounded; a
 //! quotient is bounded if its divisor cannot be near 0; what is not known to be bounded is not.
 
-use abbe_spec::expr::{Function, Symbol};
+use abbe_spec::{Function, Symbol};
 
 use super::{Action, Operand, Program};
 

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::AddAssign;
 
-use abbe_spec::expr::Function;
+use abbe_spec::Function;
 
 use super::{Action, Program};
 

@@ -2,13 +2,10 @@
 
 use abbe_core::Function;
 use abbe_core::function::Count;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
-use super::Program;
-use super::outputs::results;
-use super::routine::{Array, Role, Routine};
 use super::routines::at_once;
+use super::{Array, Program, Role, Routine, results};
 use crate::chain::{Model, passive_by_symbol};
 use crate::graph::Node;
 

@@ -199,8 +199,7 @@ impl Row {
 impl Array {
     /// Returns the number of dimensions that make up a row.
     pub fn row_rank(&self) -> usize {
-        let pose = [Count::Exactly(4), Count::Exactly(3)];
-        if self.shape.ends_with(&pose) { 2 } else { 1 }
+        if self.shape.ends_with(&[Count::Exactly(4), Count::Exactly(3)]) { 2 } else { 1 }
     }
 
     /// Returns the number of elements.

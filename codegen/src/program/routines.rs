@@ -4,16 +4,14 @@ use std::sync::Arc;
 
 use abbe_core::function::{COMMANDS, COMPENSATED, Count, Signature};
 use abbe_core::{Description, Function, Orientation};
-use abbe_spec::Spec;
-use abbe_spec::expr::Table as LookupTable;
+use abbe_spec::{Spec, Table as LookupTable};
 
 use super::description::description;
 use super::loops::FrameLoops;
 use super::outputs::{Outputs, alternatives, fewest};
-use super::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage, Sums, Table};
 use super::select::Selections;
 use super::tree::LoopRoutineBuilder;
-use super::{Action, Operations, Program};
+use super::{Action, Array, ArrayRows, Block, Operations, Program, Role, Routine, Row, Stage, Sums, Table};
 use crate::chain::{EffectNode, Model, is_long};
 
 /// The functions of a manipulator and their shared data.

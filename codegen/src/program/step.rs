@@ -1,6 +1,6 @@
 //! Straight-line programs: steps, each after its operands.
 
-use abbe_spec::expr::{Function, Lookup, Symbol};
+use abbe_spec::{Function, Lookup, Symbol};
 
 /// Source of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,8 +96,7 @@ pub struct Program {
 impl Program {
     /// Iterates over the operands of all steps, and the outputs.
     pub(crate) fn operands(&self) -> impl Iterator<Item = Operand> {
-        let operands = self.steps.iter().flat_map(|step| step.action.operands());
-        operands.chain(self.outputs.iter().copied())
+        self.steps.iter().flat_map(|step| step.action.operands()).chain(self.outputs.iter().copied())
     }
 
     pub(super) fn count_uses(&mut self) {

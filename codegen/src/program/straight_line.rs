@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use abbe_spec::expr::Function;
+use abbe_spec::Function;
 use indexmap::IndexMap;
 
 use super::select::{Selection, Selections};

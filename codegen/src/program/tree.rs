@@ -2,10 +2,9 @@
 
 use abbe_core::Function;
 use abbe_core::function::Count;
-use abbe_spec::expr::Symbol;
+use abbe_spec::Symbol;
 
-use super::routine::{Array, ArrayRows, Block, Repeated, Role, Stage};
-use super::{Operand, Program, Rounded};
+use super::{Array, ArrayRows, Block, Operand, Program, Repeated, Role, Rounded, Stage};
 use crate::chain::{ClosedLoops, Model, Path, RealNodes, STEPS};
 use crate::graph::{Graph, Node};
 

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use abbe_spec::expr::Function;
+use abbe_spec::Function;
 
 use super::select::Selection;
 use super::{Action, Operand, Program, Step};

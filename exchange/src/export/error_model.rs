@@ -6,8 +6,7 @@ use abbe::{Error, Manipulator, Pose, repeatable_magnitudes};
 use abbe_codegen::chain::deviations;
 use abbe_codegen::graph::{Graph, Node};
 use abbe_interpreter::Interpreter;
-use abbe_spec::expr::Symbol;
-use abbe_spec::{ChainNumber, Spec};
+use abbe_spec::{ChainNumber, Spec, Symbol};
 
 /// Part of the chain that an error changes.
 #[derive(Clone, Copy, Debug)]

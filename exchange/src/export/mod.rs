@@ -13,6 +13,8 @@ pub(crate) mod report;
 pub(crate) mod rotary_axes;
 pub(crate) mod slides;
 
+use error_model::{Cause, ChainErrors, ErrorModel, Link};
+
 pub use self::pose_difference::{Figure, PoseDifference};
 pub use self::real_machine::RealMachine;
 pub use self::report::{ExportReport, ExportedFile};

@@ -21,11 +21,9 @@ use abbe::analysis::sampling::vectors::{add, cross, dot, scale};
 use abbe::{Error, Manipulator, Pose, real_pose};
 use abbe_codegen::chain::transform;
 use abbe_codegen::graph::{Frame, Graph, Node};
-use abbe_spec::Factor;
-use abbe_spec::expr::{Expression, Symbol};
+use abbe_spec::{Expression, Factor, Symbol};
 
-use super::error_model::{ChainErrors, Link, product};
-use super::real_machine::RealMachine;
+use super::{ChainErrors, Link, RealMachine, product};
 
 /// Joint of the format.
 #[derive(Clone, Debug)]

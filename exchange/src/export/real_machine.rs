@@ -3,17 +3,15 @@
 //! Most formats hold constant numbers. Errors that vary with the configuration are replaced by
 //! their mean over the workspace, to which the constant part is closest.
 
-use abbe_spec::option::SET;
 use std::sync::Arc;
 
 use abbe::analysis::{Configuration, Workspace, random_joint_samples, sampling};
 use abbe::{Class, Error, Manipulator, Pose, drawn_pose, real_pose};
 use abbe_interpreter::Interpreter;
-use abbe_spec::expr::Dimension;
-use abbe_spec::{DhConvention, Diagnostics, Spec, mistake, number};
+use abbe_spec::option::SET;
+use abbe_spec::{DhConvention, Diagnostics, Dimension, Spec, mistake, number};
 
-use super::error_model::{Cause, ChainErrors, ErrorModel, Link, about_x, about_z};
-use super::pose_difference::PoseDifference;
+use super::{Cause, ChainErrors, ErrorModel, Link, PoseDifference, about_x, about_z};
 
 /// Relative change of an error below which it is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -288,8 +286,7 @@ fn configurations(
     let description = manipulator.description();
     let moved: Vec<usize> = (0..description.variables.len()).collect();
     let free = |i: &usize| {
-        let ends = description.inputs[*i].range;
-        ends.iter().all(|end| end.is_finite()) && !fixed_inputs.contains(i)
+        description.inputs[*i].range.iter().all(|end| end.is_finite()) && !fixed_inputs.contains(i)
     };
     let inputs: Vec<usize> = (0..description.inputs.len()).filter(free).collect();
     let workspace = random_joint_samples(manipulator, &moved, samples, seed)?.inputs(manipulator, &inputs)?;

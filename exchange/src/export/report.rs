@@ -7,9 +7,8 @@ use abbe_spec::number::digits;
 use abbe_spec::{Diagnostics, mistake};
 use serde::Serialize;
 
-use super::pose_difference::PoseDifference;
-use super::real_machine::RealMachine;
-use super::rotary_axes::RotaryAxis;
+use super::{PoseDifference, RealMachine, RotaryAxis};
+use crate::Result;
 
 /// Change of a number, in any unit, below which it is rounding.
 pub(crate) const UNCHANGED: f64 = 1e-12;
@@ -83,7 +82,7 @@ impl ExportReport {
         files: Vec<ExportedFile>,
         corrected: impl Fn(&[f64], &[f64]) -> Vec<f64>,
         sign: String,
-    ) -> Result<Self, Diagnostics> {
+    ) -> Result<Self> {
         let remains = machine.command_difference(|q, u| Ok(corrected(q, u)));
         let remains = remains.map_err(|error| mistake::whole(&machine.origin, &error))?;
         let sign = if sign.is_empty() { "All errors are 0.".to_owned() } else { sign };
@@ -93,11 +92,7 @@ impl ExportReport {
 
     /// Reports a format that holds the machine with its mean errors, loops closed: compares its
     /// tool with the real one.
-    pub(crate) fn for_mean(
-        machine: &RealMachine,
-        format: &str,
-        files: Vec<ExportedFile>,
-    ) -> Result<Self, Diagnostics> {
+    pub(crate) fn for_mean(machine: &RealMachine, format: &str, files: Vec<ExportedFile>) -> Result<Self> {
         if machine.mean.dh_numbers.iter().any(|errors| *errors != [0.0; 4]) {
             let message = "this format takes no errors of Denavit-Hartenberg numbers";
             return Err(mistake::with_help(&machine.origin, message, "give errors e_x … e_p of the frame"));

@@ -5,15 +5,13 @@
 //! or the next table, to its base. Seen from the base the axis is displaced by `E_i⁻¹`. Fixed
 //! frames after the axis, `A_k E_k` without a variable, belong to the base.
 
+use abbe::analysis::sampling::vectors::{add, cross, dot, scale};
 use abbe::{Error, Manipulator, Orientation, Pose, deviation};
 use abbe_spec::number::digits;
 use serde::Serialize;
 
-use super::error_model::{ChainErrors, Link, product};
-use super::pose_difference::PoseDifference;
-use super::real_machine::RealMachine;
 use super::slides::Axes;
-use abbe::analysis::sampling::vectors::{add, cross, dot, scale};
+use super::{ChainErrors, Link, PoseDifference, RealMachine, product};
 
 /// Mean displacement of a rotary axis of the workpiece from its nominal pose.
 #[derive(Clone, Debug, Serialize)]

@@ -3,13 +3,12 @@
 //!
 //! The workpiece is at rest or on rotary axes, which are at 0 where errors of slides are evaluated.
 
+use abbe::analysis::sampling::vectors::{add, cross, subtract};
 use abbe::{Error, Manipulator, Orientation, Pose, VariableKind, deviation, real_pose};
 use abbe_spec::option::TO_TABLE;
 use abbe_spec::{Diagnostics, mistake};
 
-use super::error_model::{ChainErrors, product};
-use super::real_machine::RealMachine;
-use abbe::analysis::sampling::vectors::{add, cross, subtract};
+use super::{ChainErrors, RealMachine, product};
 
 /// Linear axis.
 #[derive(Clone, Copy, Debug)]

@@ -14,9 +14,8 @@ use std::fmt::Write;
 
 use abbe::analysis::sampling;
 use abbe::{Manipulator, Pose};
-use abbe_spec::expr::Symbol;
 use abbe_spec::option::TO_URDF;
-use abbe_spec::{Diagnostics, Loop, mistake};
+use abbe_spec::{Diagnostics, Loop, Symbol, mistake};
 
 use crate::export::origins::moves;
 use crate::export::{ExportReport, ExportedFile, RealMachine};

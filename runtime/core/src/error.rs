@@ -2,8 +2,7 @@
 //!
 //! Remedies for errors.
 
-use core::fmt;
-use core::fmt::Display;
+use core::fmt::{self, Display};
 
 use crate::{Function, Quantity};
 
@@ -11,6 +10,9 @@ use crate::{Function, Quantity};
 ///
 /// Below it the rows would be amplified a million times or more.
 pub const MINIMUM_MARGIN: f64 = 1e-6;
+
+/// Result of evaluating a configuration.
+pub(crate) type Result<T, E = Error> = core::result::Result<T, E>;
 
 /// Failure to evaluate a configuration. Indices count from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,6 @@
 //! [`Scalar`] for `f64` and `f32`.
 
-use crate::sin_cos;
-use crate::{LookupTable, Scalar};
+use crate::{LookupTable, Scalar, sin_cos};
 
 /// Register with two lanes that every machine of this architecture has.
 #[cfg(target_arch = "x86_64")]

@@ -60,6 +60,8 @@ pub use remainder::{Slope, remainder_slope};
 
 use crate::lanes::Sweepable;
 
+use samples::{Sample, Subject};
+
 /// Number of configurations that [`test_manipulator!`](crate::test_manipulator) samples.
 pub const SAMPLES: usize = 200;
 /// Largest accepted relative discrepancy between a Jacobian and central differences.

@@ -64,6 +64,7 @@ pub use description::{
 pub use distinct::ErrorColumns;
 #[cfg(feature = "std")]
 pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
+pub(crate) use error::Result;
 pub use error::{Error, MINIMUM_MARGIN, Remedy};
 pub use function::Function;
 

@@ -4,7 +4,7 @@ use bytemuck::TransparentWrapper;
 
 #[cfg(feature = "std")]
 use crate::open_pose;
-use crate::{Description, Error, Function, Pose, Quantity, checks};
+use crate::{Description, Error, Function, Pose, Quantity, Result, checks};
 
 /// Manipulator: pure functions of the joint variables `q`, the structural parameters `s` and the
 /// inputs `u`.
@@ -28,22 +28,17 @@ pub trait Manipulator: Sync {
     /// do not close, and [`Error::NoFunction`] for a function that the manipulator does not have.
     /// Where Euler rows are singular, it returns [`Error::EulerSingularity`]; rows 1–3 are computed
     /// there, too.
-    fn evaluate(
-        &self,
-        function: Function,
-        arguments: &[&[f64]],
-        results: &mut [&mut [f64]],
-    ) -> Result<(), Error>;
+    fn evaluate(&self, function: Function, arguments: &[&[f64]], results: &mut [&mut [f64]]) -> Result<()>;
 
     /// Computes `A_1 … A_n` and the tool `T`: `frames + 1` transforms.
-    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
+    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<()> {
         let transforms = <Pose as TransparentWrapper<_>>::peel_slice_mut(transforms);
         let transforms = transforms.as_flattened_mut().as_flattened_mut();
         self.evaluate(Function::Transforms, &[q, s], &mut [transforms])
     }
 
     /// Returns the pose of the tool point, equation (3).
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
+    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose> {
         single_pose(self, Function::Pose, &[q, s])
     }
 
@@ -52,19 +47,19 @@ pub trait Manipulator: Sync {
     ///
     /// Returns [`Error::EulerSingularity`] where Euler rows are singular; rows 1–3 of the columns
     /// are computed there, too.
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose> {
         jacobian(self, Function::ErrorJacobian, [q, s], columns)
     }
 
     /// Returns the pose and computes the joint Jacobian `J_q = ∂X_T/∂q`: one column per variable.
     /// Errors as for `J_e`.
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose> {
         jacobian(self, Function::JointJacobian, [q, s], columns)
     }
 
     /// Returns the pose and computes `∂X_T/∂s`: one column per structural parameter. Errors as for
     /// `J_e`.
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose> {
         jacobian(self, Function::ParameterJacobian, [q, s], columns)
     }
 
@@ -73,19 +68,13 @@ pub trait Manipulator: Sync {
     ///
     /// The value is the error for a repeatable source, and the magnitude of the error for a random
     /// one. Returns [`Error::OutOfRange`] if an input is outside its range.
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
+    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<()> {
         self.evaluate(Function::Effects, &[q, s, u], &mut [effects])
     }
 
     /// Computes ε, the sum of the repeatable sources: six errors per frame. Errors as for
     /// [`effects`](Self::effects).
-    fn generalized_errors(
-        &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
-    ) -> Result<(), Error> {
+    fn generalized_errors(&self, q: &[f64], s: &[f64], u: &[f64], errors: &mut [[f64; 6]]) -> Result<()> {
         self.evaluate(Function::GeneralizedErrors, &[q, s, u], &mut [errors.as_flattened_mut()])
     }
 
@@ -95,7 +84,7 @@ pub trait Manipulator: Sync {
     /// Returns `None` for manipulators without the function, whose sources act only at frames: the
     /// chain with the values of [`effects`](Self::effects) is then exact.
     /// [`drawn_pose`](crate::drawn_pose) returns the pose in either case.
-    fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], magnitudes: &[f64]) -> Result<Option<Pose>, Error> {
+    fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], magnitudes: &[f64]) -> Result<Option<Pose>> {
         match single_pose(self, Function::DrawnPose, &[q, s, u, magnitudes]) {
             Err(Error::NoFunction(_)) => Ok(None),
             pose => pose.map(Some),
@@ -105,7 +94,7 @@ pub trait Manipulator: Sync {
     /// Returns the exact pose of the tool point with given errors, six per frame: equation (6),
     /// with all loops closed.
     #[cfg(feature = "std")]
-    fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
+    fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose> {
         let description = self.description();
         if description.has_loops() {
             return single_pose(self, Function::DisplacedPose, &[q, s, errors.as_flattened()]);
@@ -118,7 +107,7 @@ pub trait Manipulator: Sync {
     /// its value. Manipulators without loops have none.
     ///
     /// Returns [`Error::NotClosed`] if there are none.
-    fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), Error> {
+    fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<()> {
         match self.description().has_loops() {
             true => self.evaluate(Function::Passive, &[q, s], &mut [passive]),
             false => checks::length(Quantity::Passive, [0, 1], passive.len()),
@@ -128,7 +117,7 @@ pub trait Manipulator: Sync {
     /// Computes the forces λ that close the loops under the loads, in N and N·m, one per equation
     /// of the loops; the force of a leg is positive if it presses its ends apart. Manipulators
     /// without loops have none.
-    fn leg_forces(&self, q: &[f64], s: &[f64], u: &[f64], forces: &mut [f64]) -> Result<(), Error> {
+    fn leg_forces(&self, q: &[f64], s: &[f64], u: &[f64], forces: &mut [f64]) -> Result<()> {
         match self.description().has_loops() {
             true => self.evaluate(Function::LegForces, &[q, s, u], &mut [forces]),
             false => Ok(()),
@@ -149,7 +138,7 @@ pub trait Manipulator: Sync {
         target: &Pose,
         solutions: &mut [f64],
         found: &mut [f64],
-    ) -> Result<(), Error> {
+    ) -> Result<()> {
         if self.description().solutions > 0 {
             let arguments = [q, s, target.0.as_flattened()];
             return self.evaluate(Function::Inverse, &arguments, &mut [solutions, found]);
@@ -163,7 +152,7 @@ fn single_pose(
     manipulator: &(impl Manipulator + ?Sized),
     function: Function,
     arguments: &[&[f64]],
-) -> Result<Pose, Error> {
+) -> Result<Pose> {
     let mut pose = Pose([[0.0; 3]; 4]);
     manipulator.evaluate(function, arguments, &mut [pose.0.as_flattened_mut()])?;
     Ok(pose)
@@ -175,9 +164,8 @@ fn jacobian(
     function: Function,
     [q, s]: [&[f64]; 2],
     columns: &mut [[f64; 6]],
-) -> Result<Pose, Error> {
+) -> Result<Pose> {
     let mut pose = Pose([[0.0; 3]; 4]);
-    let results = &mut [pose.0.as_flattened_mut(), columns.as_flattened_mut()];
-    manipulator.evaluate(function, &[q, s], results)?;
+    manipulator.evaluate(function, &[q, s], &mut [pose.0.as_flattened_mut(), columns.as_flattened_mut()])?;
     Ok(pose)
 }

@@ -33,8 +33,7 @@ impl Pose {
         let [x, y, z, position] = self.0;
         let rotation =
             Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x.into(), y.into(), z.into()]));
-        let turn = UnitQuaternion::from_rotation_matrix(&rotation);
-        Isometry3::from_parts(Translation3::from(position), turn)
+        Isometry3::from_parts(Translation3::from(position), UnitQuaternion::from_rotation_matrix(&rotation))
     }
 }
 

@@ -22,8 +22,7 @@ impl Pose {
 
     /// Returns the inverse motion.
     pub fn inverse(&self) -> Self {
-        let transposed = core::array::from_fn(|i| core::array::from_fn(|j| self.0[j][i]));
-        let [x, y, z]: [[f64; 3]; 3] = transposed;
+        let [x, y, z]: [[f64; 3]; 3] = core::array::from_fn(|i| core::array::from_fn(|j| self.0[j][i]));
         let turned = Self([x, y, z, [0.0; 3]]).turn(self.position());
         Self([x, y, z, turned.map(|v| -v)])
     }

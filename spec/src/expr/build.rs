@@ -1,11 +1,11 @@
 //! Builds the terms of an expression. Names and dimensions are checked and constants folded for
 //! each term.
 
-use super::function::FUNCTION_NAMES;
 use super::reach::reaches_beyond;
-use super::scope::Allowed;
-use super::unit::LARGEST;
-use super::{Binary, Dimension, Entry, Expression, Function, Kind, Lookup, Scope, Term, UNIT_NAMES, Unit};
+use super::{
+    Allowed, Binary, Dimension, Entry, Expression, FUNCTION_NAMES, Function, Kind, LARGEST, Lookup, Scope,
+    Term, UNIT_NAMES, Unit,
+};
 use crate::diagnostic::{Diagnostic, Span, first, nearest_after};
 
 /// Functions of two arguments.

@@ -73,8 +73,7 @@ impl Dimension {
     /// Returns the exponents of length, mass, time and temperature, or `None` if one is not an
     /// integer.
     pub fn whole_exponents(self) -> Option<[i32; 4]> {
-        let whole = self.halves.iter().all(|half| half % 2 == 0);
-        whole.then(|| self.halves.map(|half| i32::from(half) / 2))
+        self.halves.iter().all(|half| half % 2 == 0).then(|| self.halves.map(|half| i32::from(half) / 2))
     }
 
     /// Returns the coherent unit in a system whose length unit is `length`; empty for a pure

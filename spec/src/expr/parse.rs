@@ -14,11 +14,10 @@
 use abbe_core::Component;
 
 use super::build::{Builder, FUNCTIONS_OF_TWO};
-use super::function::FUNCTION_NAMES;
-use super::scope::Allowed;
-use super::tokens::{Token, tokens};
-use super::unit::unit_help;
-use super::{Binary, Dimension, Entry, Expression, Function, LocatedText, Scope, TextLocation, Unit};
+use super::{
+    Allowed, Binary, Dimension, Entry, Expression, FUNCTION_NAMES, Function, LocatedText, Scope,
+    TextLocation, Token, Unit, tokens, unit_help,
+};
 use crate::diagnostic::{Diagnostic, Span, suggestion};
 
 /// Maximum nesting depth of parentheses, functions, signs and powers.

@@ -75,8 +75,7 @@ impl Factor {
                 let Matrix { rows, span } = &**matrix;
                 let row = |i: usize| {
                     let [a, b, c] = [0, 1, 2].map(|j| rows[j][i].clone());
-                    let moved = [0, 1, 2].map(|j| rows[j][i].clone() * rows[j][3].clone());
-                    let [x, y, z] = moved;
+                    let [x, y, z] = [0, 1, 2].map(|j| rows[j][i].clone() * rows[j][3].clone());
                     [a, b, c, minus(&(x + y + z))]
                 };
                 Self::Matrix(Box::new(Matrix { rows: [0, 1, 2].map(row), span: span.clone() }))

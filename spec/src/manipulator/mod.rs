@@ -9,6 +9,8 @@ mod source;
 mod spec;
 mod tree;
 
+use names::{check_identifier, check_manipulator_name, read_title};
+
 pub use frame::{ChainNumber, DhConvention, DhNumber, Factor, Frame, Matrix};
 pub use names::{as_identifier, check_name};
 pub use read::keys::{TABLES, rules};

@@ -6,7 +6,7 @@
 
 use abbe_core::{Class, Component, Distribution};
 
-use super::frame::{ChainNumber, Factor};
+use super::{ChainNumber, Factor};
 use crate::diagnostic::Span;
 use crate::expr::Expression;
 

@@ -13,10 +13,9 @@ use std::sync::Arc;
 use abbe_core::{Class, LengthUnit, Orientation, SumLimit, VariableKind};
 use indexmap::IndexSet;
 
-use super::frame::{ChainNumber, Factor, Frame};
-use super::names::as_identifier;
-use super::source::{Covariance, Deviation, Load, Source, Uncertain};
-use super::tree::{Loop, Tree};
+use super::{
+    ChainNumber, Covariance, Deviation, Factor, Frame, Load, Loop, Source, Tree, Uncertain, as_identifier,
+};
 use crate::expr::{Dimension, Expression, Symbol, Table};
 
 /// A manipulator as described by its file.

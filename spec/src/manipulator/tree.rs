@@ -2,7 +2,7 @@
 //!
 //! Loops of frames, and the conditions under which they close.
 
-use super::frame::Frame;
+use super::Frame;
 use crate::diagnostic::Span;
 use crate::expr::{Expression, Symbol};
 
@@ -62,8 +62,7 @@ impl Tree<'_> {
     /// Returns the symbols that change a loop: those between its ends, and of its length.
     pub fn symbols(self, closed: &Loop) -> Vec<Symbol> {
         let frames = self.between(closed).into_iter().flat_map(|frame| self.frames[frame].symbols());
-        let length = closed.closure.length().into_iter().flat_map(Expression::symbols);
-        frames.chain(length).collect()
+        frames.chain(closed.closure.length().into_iter().flat_map(Expression::symbols)).collect()
     }
 
     /// Returns the end of a loop that belongs to it alone, and −1 for the first frame or 1 for the

@@ -1,6 +1,6 @@
 //! Angles as pairs of sine and cosine, and equations that they solve.
 
-use super::lines::Probes;
+use super::Probes;
 use crate::graph::{Graph, Node, Vector};
 
 /// Sizes that count as rounding errors, relative to those of the numbers, in double and in single

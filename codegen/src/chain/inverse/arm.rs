@@ -2,9 +2,7 @@
 
 use abbe_core::VariableKind;
 
-use super::angles::{Angle, Root, Rounding, angle_between, linear};
-use super::lines::{Line, Probes, reject};
-use super::partial::{Joint, Partial};
+use super::{Angle, Joint, Line, Partial, Probes, Root, Rounding, angle_between, linear, reject};
 use crate::graph::{Graph, Node, Vector};
 
 /// Axes of the first three joints, and a point that they move, with all joints at zero.
@@ -102,8 +100,7 @@ impl Arm<'_> {
             let u = Moved { fixed, across, beyond }.at(g, q3.angle);
             // |between + R_2 u|² = |to|² in the plane across the axes.
             let [flat_u, flat_to] = [u, to].map(|v| reject(g, first.along, v));
-            let q2s = elbow_angles(g, second.along, [between, flat_u], flat_to, self.free[1], self.size());
-            for q2 in q2s {
+            for q2 in elbow_angles(g, second.along, [between, flat_u], flat_to, self.free[1], self.size()) {
                 let reached = q2.angle.turn(g, second.along, flat_u);
                 let reached = g.add_vectors(between, reached);
                 let q1 = angle_between(g, first.along, reached, flat_to, self.free[0], self.probes.size);

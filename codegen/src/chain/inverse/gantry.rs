@@ -1,13 +1,9 @@
 //! Three slides and three revolute joints, in any order.
 
 use abbe_core::VariableKind;
-use abbe_spec::expr::Symbol;
+use abbe_spec::Symbol;
 
-use super::angles::{Angle, Root};
-use super::lines::Lines;
-use super::motion::Motion;
-use super::partial::{Joint, Partial};
-use super::wrist::Wrist;
+use super::{Angle, Joint, Lines, Motion, Partial, Root, Wrist};
 use crate::graph::{Graph, Node, Vector};
 
 /// Volume spanned by the directions of three slides below which they count as coplanar.

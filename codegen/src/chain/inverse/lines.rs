@@ -3,8 +3,7 @@
 use std::cell::RefCell;
 
 use abbe_core::VariableKind;
-use abbe_spec::expr::{Expression, Symbol};
-use abbe_spec::{Factor, Spec};
+use abbe_spec::{Expression, Factor, Spec, Symbol};
 
 use crate::chain::lower_pairs::couplings;
 use crate::chain::symbol_jacobian::{Steps, twist};

@@ -29,12 +29,11 @@ mod wrist;
 use std::f64::consts::PI;
 
 use abbe_core::VariableKind;
-use abbe_spec::expr::{Function, Symbol};
-use abbe_spec::{Spec, Variable};
+use abbe_spec::{Function, Spec, Symbol, Variable};
 
-use self::angles::{Angle, Root, Rounding};
+use self::angles::{Angle, Root, Rounding, angle_between, are_square, linear, tilt_angles};
 use self::arm::Arm;
-use self::lines::{Line, Lines};
+use self::lines::{Line, Lines, Probes, at_zero, line, reject};
 use self::motion::Motion;
 use self::partial::{Joint, Partial};
 use self::wrist::Wrist;

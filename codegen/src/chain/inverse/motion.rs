@@ -1,6 +1,6 @@
 //! Motion of the tool.
 
-use super::lines::Probes;
+use super::Probes;
 use crate::graph::{Frame, Graph, Vector};
 
 /// Motion of the tool from its pose with all joints at zero to the target, or back from there:

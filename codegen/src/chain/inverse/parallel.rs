@@ -2,12 +2,9 @@
 
 use abbe_core::VariableKind;
 
-use super::angles::{Angle, Root, angle_between, tilt_angles};
 use super::arm::{back_to_height, plane};
-use super::lines::{Line, Lines};
-use super::motion::Motion;
-use super::partial::Partial;
 use super::wrist::across;
+use super::{Angle, Line, Lines, Motion, Partial, Root, angle_between, tilt_angles};
 use crate::graph::Graph;
 
 /// Returns the eight solutions for a motion from zero; `None` if the axes are others.

@@ -1,6 +1,6 @@
 //! Solutions in part.
 
-use super::angles::Root;
+use super::Root;
 use crate::graph::Node;
 
 /// Joint of a solution.

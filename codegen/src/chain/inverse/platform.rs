@@ -13,12 +13,9 @@
 //! Further legs of the same drive, as the second rod of a delta's arm, are conditions.
 
 use abbe_core::VariableKind;
-use abbe_spec::expr::{Elementary, Expression, Function, Motion, Symbol};
-use abbe_spec::{Closure, Factor, Spec};
+use abbe_spec::{Closure, Elementary, Expression, Factor, Function, Motion, Spec, Symbol};
 
-use super::angles::{Angle, Rounding, linear};
-use super::lines::{Line, Probes, at_zero, line, reject};
-use super::partial::{Joint, Partial};
+use super::{Angle, Joint, Line, Partial, Probes, Rounding, at_zero, line, linear, reject};
 use crate::chain::lower_pairs;
 use crate::graph::{Frame, Graph, Node, Vector};
 

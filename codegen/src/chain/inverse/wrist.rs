@@ -1,7 +1,6 @@
 //! Three revolute joints that give an orientation.
 
-use super::angles::{Angle, Root, angle_between, are_square, tilt_angles};
-use super::lines::{Probes, reject};
+use super::{Angle, Probes, Root, angle_between, are_square, reject, tilt_angles};
 use crate::graph::{Graph, Vector};
 
 /// Directions of the axes of three revolute joints.

@@ -1,21 +1,15 @@
 //! The nodes of a chain or a tree of frames.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
 use super::chain::Chain;
 use super::machine::Machine;
 use super::names::{name, name_lengths};
-use super::{Jacobian, Model};
-use crate::chain::by_source;
-use crate::chain::elastic::Loads;
 use crate::chain::inverse::Inverse;
 use crate::chain::kinematics::{Kinematics, symbols};
-use crate::chain::rows::Rows;
-use crate::chain::sources::{self, Causes};
-use crate::chain::tree::{ClosedLoops, Parts};
-use crate::chain::walk::transform;
-use crate::graph::{Graph, Node};
+use crate::chain::tree::Parts;
+use crate::chain::{Causes, ClosedLoops, Jacobian, Loads, Model, Rows, by_source, sources, transform};
+use crate::graph::{Graph, Six};
 use crate::procedure::Precision;
 
 impl Model {
@@ -46,7 +40,7 @@ impl Model {
         mut graph: Graph,
         spec: &Spec,
         mut kinematics: K,
-        machine: impl FnOnce(K, &mut Graph, &Spec, &Causes, [&[[Node; 6]]; 2]) -> Machine,
+        machine: impl FnOnce(K, &mut Graph, &Spec, &Causes, [&[Six]; 2]) -> Machine,
     ) -> Self {
         let g = &mut graph;
         let (frames, tool) = kinematics.poses();
@@ -80,14 +74,14 @@ impl Model {
 
         let zero = g.zero();
         let of_sums = kinematics.prepare_sums(g, spec).unwrap_or(margin);
-        let errors: Vec<[Node; 6]> = (0..spec.frames.len())
+        let errors: Vec<Six> = (0..spec.frames.len())
             .map(|i| std::array::from_fn(|k| g.symbol(Symbol::Error(6 * i + k))))
             .collect();
         let columns = vec![kinematics.displacement(g, &rows, &errors)];
         let displacement = Jacobian { columns, margin: of_sums };
         let columns = kinematics.covariance(g, &error_jacobian.columns, &errors);
         let covariance = Jacobian { columns, margin: of_sums };
-        let mut two_ways = |errors: &[Vec<[Node; 6]>]| {
+        let mut two_ways = |errors: &[Vec<Six>]| {
             let sums = errors.iter().map(|errors| kinematics.displacement(g, &rows, errors)).collect();
             let product = |errors: &Vec<_>| by_source::product(g, &error_jacobian.columns, errors);
             let products = errors.iter().map(product).collect();

@@ -1,23 +1,16 @@
 //! The kinematics of a chain of frames.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
-use super::is_long;
 use super::machine::Machine;
-use crate::chain::accumulate::{Accumulated, Links};
-use crate::chain::by_source;
-use crate::chain::covariance::Covariance;
 use crate::chain::equivalent_forms::{EquivalentForms, equate_at_origin};
-use crate::chain::error_jacobian::{self, Columns, Moments};
+use crate::chain::error_jacobian::{self, Moments};
 use crate::chain::inverse::Inverse;
 use crate::chain::kinematics::{Kinematics, magnitudes, symbols};
-use crate::chain::real::RealChain;
-use crate::chain::rows::Rows;
-use crate::chain::sources::Causes;
 use crate::chain::symbol_jacobian::{Steps, local_twists, twist};
 use crate::chain::walk::{Step, walk};
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::chain::{Accumulated, Causes, Columns, Covariance, Links, RealChain, Rows, by_source, is_long};
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// A chain of frames, from the base to the tool.
 pub(super) struct Chain {
@@ -54,7 +47,7 @@ impl Chain {
         graph: &mut Graph,
         spec: &Spec,
         causes: &Causes,
-        errors: [&[[Node; 6]]; 2],
+        errors: [&[Six]; 2],
     ) -> Machine {
         let [repeatable, drawn] = magnitudes(graph, spec);
         let real = RealChain::new(graph, spec, causes, repeatable);
@@ -103,7 +96,7 @@ impl Kinematics for Chain {
         (&self.frames, self.tool)
     }
 
-    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<[Node; 6]>, Vec<Vec<Node>>) {
+    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<Six>, Vec<Vec<Node>>) {
         let moments = Moments::new(graph, &self.frames, &self.tool, &self.path, &self.ends);
         self.by_frame = error_jacobian::columns(graph, &self.frames, moments, rows);
         self.steps = Steps::new(graph, std::mem::take(&mut self.path));
@@ -124,12 +117,12 @@ impl Kinematics for Chain {
         Some(margin)
     }
 
-    fn displacement(&self, graph: &mut Graph, _: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
+    fn displacement(&self, graph: &mut Graph, _: &Rows, errors: &[Six]) -> Six {
         let Some((links, rows)) = &self.along else { return [graph.zero(); 6] };
         by_source::along(graph, links, rows, errors)
     }
 
-    fn covariance(&self, graph: &mut Graph, _: &[[Node; 6]], variances: &[[Node; 6]]) -> Vec<[Node; 6]> {
+    fn covariance(&self, graph: &mut Graph, _: &[Six], variances: &[Six]) -> Vec<Six> {
         let Some((links, rows)) = &self.along else { return Vec::new() };
         let none = Covariance::none(graph);
         links.accumulate(graph, variances, 0, none).rows(graph, rows)

@@ -1,17 +1,16 @@
 //! The machine with its errors, as nodes of chains or trees of frames.
 
 use crate::chain::inverse::Inverse;
-use crate::chain::symbol_jacobian::LocalTwist;
-use crate::chain::tree::ClosedLoops;
-use crate::graph::{Frame, Node};
+use crate::chain::{ClosedLoops, LocalTwist};
+use crate::graph::{Frame, Six};
 
 /// The machine with its errors, and what only chains or only trees have; see the fields of
 /// [`Model`](super::Model).
 pub(super) struct Machine {
     pub(super) real_pose: Frame,
     pub(super) drawn_pose: Frame,
-    pub(super) real_errors: Option<Vec<[Node; 6]>>,
-    pub(super) drawn_errors: Vec<[Node; 6]>,
+    pub(super) real_errors: Option<Vec<Six>>,
+    pub(super) drawn_errors: Vec<Six>,
     pub(super) local_twists: [Vec<LocalTwist>; 2],
     pub(super) inverse: Option<Inverse>,
     pub(super) loops: Option<ClosedLoops>,

@@ -10,17 +10,15 @@ mod names;
 use abbe_spec::Spec;
 
 use super::inverse::Inverse;
-use super::sources::EffectNode;
-use super::symbol_jacobian::LocalTwist;
-use super::tree::ClosedLoops;
-use crate::graph::{Frame, Graph, Node};
+use super::{ClosedLoops, EffectNode, LocalTwist};
+use crate::graph::{Frame, Graph, Node, Six};
 
 /// A Jacobian, or another matrix with the same six rows: columns, with rows 4–6 by the spec's
 /// orientation.
 #[derive(Clone, Debug)]
 pub struct Jacobian {
     /// The columns.
-    pub columns: Vec<[Node; 6]>,
+    pub columns: Vec<Six>,
     /// `cos ρ` if the rows are Euler angles; they are undefined where it is 0.
     pub margin: Option<Node>,
 }
@@ -47,7 +45,7 @@ pub struct Model {
     /// Effects of the enabled sources, source by source.
     pub effects: Vec<EffectNode>,
     /// ε: sum of the enabled repeatable sources, six per frame.
-    pub generalized_errors: Vec<[Node; 6]>,
+    pub generalized_errors: Vec<Six>,
     /// `ΔX = J_e ε` for any ε: one column.
     pub displacement: Jacobian,
     /// `J_e diag(σ²) J_eᵀ` for any variances σ²: six columns.
@@ -64,12 +62,12 @@ pub struct Model {
     pub drawn_pose: Frame,
     /// Errors of every frame with which the nominal chain gives `real_pose`. Only for a long chain
     /// with errors other than those at the frames themselves.
-    pub real_errors: Option<Vec<[Node; 6]>>,
+    pub real_errors: Option<Vec<Six>>,
     /// Errors of every frame with which the nominal chain gives `drawn_pose`. Only for a long
     /// chain.
-    pub drawn_errors: Vec<[Node; 6]>,
+    pub drawn_errors: Vec<Six>,
     /// `J_q` with rotation-vector rows for any orientation of the spec.
-    pub joint_twists: Vec<[Node; 6]>,
+    pub joint_twists: Vec<Six>,
     /// Twists of each transform per unit of the variables. Only for a long chain.
     pub joint_local_twists: Vec<LocalTwist>,
     /// Twists of each transform per unit of the parameters. Only for a long chain.

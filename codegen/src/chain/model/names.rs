@@ -1,7 +1,6 @@
 //! Names of nodes in generated code.
 
-use abbe_spec::Factor;
-use abbe_spec::expr::{Elementary, Motion};
+use abbe_spec::{Elementary, Factor, Motion};
 
 use crate::graph::{Frame, Graph, Node, Op};
 

@@ -13,11 +13,10 @@
 //!
 //! Errors of the lengths of legs and struts are errors of the frames at their ends.
 
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Closure, Loop, Spec};
+use abbe_spec::{Closure, Loop, Spec, Symbol};
 
 use super::view::{Motion, View};
-use crate::chain::frame_twist::FrameTwist;
+use crate::chain::FrameTwist;
 use crate::graph::{Frame, Graph, Node, Vector, in_programs, transposed};
 
 /// Frames of a loop.
@@ -49,8 +48,7 @@ impl Ends {
     /// Returns the last frame that carries all of them; `None` for `F_0`.
     pub(super) fn root(self, spec: &Spec) -> Option<usize> {
         let paths = [self.first, self.second, self.axes].map(|frame| spec.path(frame));
-        let is_common = |frame: &&usize| paths.iter().all(|path| path.contains(frame));
-        paths[0].iter().rev().find(is_common).copied()
+        paths[0].iter().rev().find(|frame: &&usize| paths.iter().all(|path| path.contains(frame))).copied()
     }
 }
 

@@ -5,7 +5,7 @@
 //! Columns that depend on each other are one block (Duff, Reid 1978), and a block comes after all
 //! on which it depends.
 
-use abbe_spec::expr::Function;
+use abbe_spec::Function;
 
 use super::units::Units;
 use crate::graph::{Graph, Node};
@@ -245,8 +245,7 @@ fn assign(
         if !has_entry(row, column) || std::mem::replace(&mut tried[row], true) {
             continue;
         }
-        let is_free = column_of[row].is_none_or(|other| assign(other, count, has_entry, column_of, tried));
-        if is_free {
+        if column_of[row].is_none_or(|other| assign(other, count, has_entry, column_of, tried)) {
             column_of[row] = Some(column);
             return true;
         }

@@ -10,19 +10,16 @@
 //!
 //! for r′ and r″, and in the same way `p″(t)` of the tool point.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
+use super::Parts;
 use super::closure::{self, Ends};
 use super::factored::Factored;
-use super::parts::Parts;
 use super::system::LoopSystem;
 use super::units::{Units, at_home, passive_at_home};
-use crate::chain::implicit::Implicit;
 use crate::chain::kinematics::{magnitudes, of_repeatable};
-use crate::chain::real::RealChain;
-use crate::chain::sources::{Causes, PlacedErrors};
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::chain::{Causes, Implicit, PlacedErrors, RealChain};
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// Nodes that close the loops. Passive variables are local symbols, from 0.
 #[derive(Clone, Debug)]
@@ -66,7 +63,7 @@ impl ClosedLoops {
         spec: &Spec,
         parts: &Parts<'_>,
         causes: &Causes,
-        errors: &[[Node; 6]],
+        errors: &[Six],
     ) -> Self {
         let units = Units::new(spec, graph);
         let equations = [parts.residual(graph), parts.upright(graph)];
@@ -129,11 +126,11 @@ impl RealNodes {
     fn displaced(
         graph: &mut Graph,
         spec: &Spec,
-        errors: &[[Node; 6]],
+        errors: &[Six],
         units: &Units,
         passive_home: &[f64],
     ) -> Self {
-        let placed = |(frame, errors): (usize, &[Node; 6])| PlacedErrors {
+        let placed = |(frame, errors): (usize, &Six)| PlacedErrors {
             source: 0,
             frame,
             place: None,

@@ -15,17 +15,15 @@
 //! and −λ u on the ends of a leg, along its direction u. A leg that is pressed has a positive λ.
 
 use abbe_core::Component;
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Closure, Factor, Spec};
+use abbe_spec::{Closure, Factor, Spec, Symbol};
 
 use super::closure::{self, Ends, Wrenches, wrenches};
 use super::factored::Factored;
 use super::units::{Units, passive_at_home};
 use super::view::{Motion, View};
-use crate::chain::implicit::Implicit;
 use crate::chain::kinematics::Kinematics;
-use crate::chain::rows::Rows;
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::chain::{Implicit, Rows};
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// The frames of a tree, its loops, and what eliminates the passive variables.
 pub(crate) struct Parts<'s> {
@@ -64,7 +62,7 @@ impl<'s> Parts<'s> {
         let columns = parts.derivatives(graph, spec);
         parts.factored = Factored::new(graph, columns, &units);
         let passive = (0..spec.passive.len()).map(Symbol::Local);
-        let tool: Vec<[Node; 6]> = passive.map(|symbol| parts.tool_by_symbol(graph, symbol)).collect();
+        let tool: Vec<Six> = passive.map(|symbol| parts.tool_by_symbol(graph, symbol)).collect();
         parts.eliminated = (0..6)
             .map(|row| {
                 let row: Vec<Node> = tool.iter().map(|twist| twist[row]).collect();
@@ -101,7 +99,7 @@ impl<'s> Parts<'s> {
 
         let columns = parts.derivatives(graph, spec);
         let passive = (0..count).map(Symbol::Local);
-        let tool: Vec<[Node; 6]> = passive.map(|symbol| parts.tool_by_symbol(graph, symbol)).collect();
+        let tool: Vec<Six> = passive.map(|symbol| parts.tool_by_symbol(graph, symbol)).collect();
         let mut sets = Vec::new();
         for (row, eliminated) in parts.eliminated.iter_mut().enumerate() {
             let symbols: Vec<Symbol> = (0..count).map(|i| Symbol::Local(count * (row + 1) + i)).collect();
@@ -164,20 +162,20 @@ impl<'s> Parts<'s> {
     }
 
     /// Returns velocity and rotation of the tool per unit of a symbol, without the loops.
-    fn tool_by_symbol(&self, graph: &mut Graph, symbol: Symbol) -> [Node; 6] {
+    fn tool_by_symbol(&self, graph: &mut Graph, symbol: Symbol) -> Six {
         let motions = self.whole.by_symbol(graph, symbol);
         self.tool(graph, &motions)
     }
 
-    fn tool(&self, graph: &mut Graph, motions: &[Motion]) -> [Node; 6] {
+    fn tool(&self, graph: &mut Graph, motions: &[Motion]) -> Six {
         let [[x, y, z], [a, b, c]] = self.whole.twist(graph, motions, Some(self.whole.tool()));
         [x, y, z, a, b, c]
     }
 
     /// Returns a twist of the tool with the motion of the passive variables that keeps the loops
     /// closed: `v − M φ̇`.
-    fn closed(&self, graph: &mut Graph, twist: [Node; 6], rates: &[Node]) -> [Vector; 2] {
-        let closed: [Node; 6] = std::array::from_fn(|row| {
+    fn closed(&self, graph: &mut Graph, twist: Six, rates: &[Node]) -> [Vector; 2] {
+        let closed: Six = std::array::from_fn(|row| {
             let part = graph.products(&self.eliminated[row], rates);
             graph.sub(twist[row], part)
         });
@@ -213,10 +211,10 @@ impl<'s> Parts<'s> {
     }
 
     /// Returns the displacement of the tool due to errors of all frames.
-    pub(crate) fn by_errors(&self, graph: &mut Graph, errors: &[[Node; 6]]) -> [Vector; 2] {
+    pub(crate) fn by_errors(&self, graph: &mut Graph, errors: &[Six]) -> [Vector; 2] {
         let none = [graph.zero(); 6];
-        let of_frame = |(errors, free): (&[Node; 6], &bool)| if *free { none } else { *errors };
-        let errors: Vec<[Node; 6]> = errors.iter().zip(&self.free).map(of_frame).collect();
+        let of_frame = |(errors, free): (&Six, &bool)| if *free { none } else { *errors };
+        let errors: Vec<Six> = errors.iter().zip(&self.free).map(of_frame).collect();
         let motions = self.whole.by_errors(graph, &errors);
         let twist = self.tool(graph, &motions);
         let rates = self.rates(graph, |graph, view| view.by_errors(graph, &errors));
@@ -303,7 +301,7 @@ impl Kinematics for Parts<'_> {
         (whole.frames(), *whole.pose(Some(whole.tool())))
     }
 
-    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<[Node; 6]>, Vec<Vec<Node>>) {
+    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<Six>, Vec<Vec<Node>>) {
         let mut columns = Vec::new();
         for frame in 0..self.whole.frames().len() {
             for component in Component::ALL {
@@ -323,17 +321,12 @@ impl Kinematics for Parts<'_> {
         None
     }
 
-    fn displacement(&self, graph: &mut Graph, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
+    fn displacement(&self, graph: &mut Graph, rows: &Rows, errors: &[Six]) -> Six {
         let [velocity, rotation] = self.by_errors(graph, errors);
         rows.column(graph, velocity, rotation)
     }
 
-    fn covariance(
-        &self,
-        graph: &mut Graph,
-        columns: &[[Node; 6]],
-        variances: &[[Node; 6]],
-    ) -> Vec<[Node; 6]> {
+    fn covariance(&self, graph: &mut Graph, columns: &[Six], variances: &[Six]) -> Vec<Six> {
         let mut sums = vec![[graph.zero(); 6]; 6];
         for (column, variance) in columns.iter().zip(variances.as_flattened()) {
             let weighted = column.map(|entry| graph.mul(*variance, entry));

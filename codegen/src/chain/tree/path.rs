@@ -16,10 +16,10 @@
 //! step, `(s / s_before)² s`, has to be below the tolerance. Where a `d_b` becomes zero, h does,
 //! too: the path ends there, although the loops may close further on in another mode.
 
-use abbe_spec::expr::{Function as Call, Symbol};
+use abbe_spec::{Function as Call, Symbol};
 
-use super::loops::{ClosedLoops, RealNodes};
 use super::system::LoopSystem;
+use super::{ClosedLoops, RealNodes};
 use crate::graph::{Graph, Node};
 
 /// Largest number of steps.

@@ -1,11 +1,10 @@
 //! The equations of all loops of a machine as functions of the passive variables, and Newton's
 //! step.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
+use super::Parts;
 use super::factored::Factored;
-use super::parts::Parts;
 use super::units::Units;
 use crate::graph::{Graph, Node};
 

@@ -1,7 +1,6 @@
 //! Units of equations and variables, and values at home.
 
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Spec, Variable};
+use abbe_spec::{Spec, Symbol, Variable};
 
 use crate::chain::transform;
 use crate::graph::{Graph, Node};

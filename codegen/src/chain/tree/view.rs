@@ -1,13 +1,12 @@
 //! Poses of the frames below one of them, and motions of these frames.
 
 use abbe_core::Component;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Motion as Kind, Symbol, motion};
+use abbe_spec::{Motion as Kind, Spec, Symbol, motion};
 
 use crate::chain::FrameTwist;
 use crate::chain::symbol_jacobian::{Steps, twist};
 use crate::chain::walk::walk;
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Six, Vector};
 
 /// Frames that hang on one of them, relative to it. The tool is the frame after the last.
 pub(super) struct View<'s> {
@@ -106,7 +105,7 @@ impl<'s> View<'s> {
     }
 
     /// Returns the motions of all frames below the root due to their errors.
-    pub(super) fn by_errors(&self, graph: &mut Graph, errors: &[[Node; 6]]) -> Vec<Motion> {
+    pub(super) fn by_errors(&self, graph: &mut Graph, errors: &[Six]) -> Vec<Motion> {
         let none = [graph.zero(); 6];
         let mut motions = Vec::new();
         for (frame, errors) in errors.iter().enumerate() {

@@ -4,12 +4,8 @@ use abbe_core::compensator::Status;
 use abbe_core::function::{Array, BEGIN, Signature};
 use abbe_spec::Spec;
 
-use super::functions::{documentation, head};
-use super::heads::SIZE;
-use super::procedures::CPrinter;
-use super::real::Real;
-use crate::print::layout::Writer;
-use crate::print::procedure::{Printer, commands};
+use super::{CPrinter, Real, SIZE, documentation, head};
+use crate::print::{Printer, Writer, commands};
 use crate::program::Routines;
 
 /// Prints the declaration of a corrected command, or of where one begins.

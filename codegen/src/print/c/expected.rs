@@ -3,10 +3,9 @@
 use std::ops::Add;
 
 use abbe_core::Function;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, Symbol};
 
-use super::real::Real;
+use super::Real;
 use crate::chain::Model;
 use crate::program::{Program, Rounded, locals, results, straight_line};
 

@@ -4,15 +4,10 @@ use abbe_core::Description;
 use abbe_core::function::Signature;
 use abbe_spec::Spec;
 
-use super::heads::{RESTRICT, broken, comment};
 use super::operators::C;
-use super::procedures::CPrinter;
-use super::real::Real;
-use crate::print::flat::Flat;
-use crate::print::layout::{Writer, sizes};
-use crate::print::procedure::Printer;
+use super::{CPrinter, RESTRICT, Real, broken, comment};
 use crate::print::routine::statements;
-use crate::print::statements::Statements;
+use crate::print::{Flat, Printer, Statements, Writer, sizes};
 use crate::program::{Array, Checks, Role, Routine, Routines};
 
 /// Returns the head of a function without its end: `int pps_pose(const double q[ABBE_RESTRICT(6)],

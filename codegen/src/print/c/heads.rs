@@ -1,6 +1,6 @@
 //! Heads of functions, and comments.
 
-use crate::print::layout::{LINE, Writer, width};
+use crate::print::{LINE, Writer, width};
 
 /// Macro of the sizes of arrays that must not overlap others.
 pub(super) const RESTRICT: &str = "ABBE_RESTRICT";

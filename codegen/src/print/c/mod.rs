@@ -18,20 +18,20 @@ mod support;
 
 use abbe_core::compensator::{CHANGE, LARGEST, Status, bound};
 use abbe_core::function::COMMANDS;
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
 use self::functions::{documentation, function, head};
-use self::heads::{RESTRICT, comment};
+use self::heads::{RESTRICT, SIZE, broken, comment};
 use self::operators::HEADERS;
 use self::procedures::CPrinter;
 pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
-use super::layout::{LINE, NOT_CLOSED, SourceFile, Writer, described, escaped, harmless};
 use super::lists::{lists, numbers};
-use super::names::{file_name, function_of, renamed};
-use super::procedure::Printer;
+use super::{
+    LINE, NOT_CLOSED, Printer, SourceFile, Writer, described, escaped, file_name, function_of, harmless,
+    renamed,
+};
 use crate::chain::Model;
 use crate::procedure::look_up;
 use crate::program::Routines;
@@ -260,8 +260,7 @@ fn values(
     };
     let (variables, parameters) = (spec.variables.iter(), spec.parameters.iter());
     let inputs = if takes_inputs(routines) { &spec.inputs[..] } else { &[] }.iter();
-    let has_compensated = routines.has_compensated();
-    let corrected = variables.clone().filter(|_| has_compensated);
+    let corrected = variables.clone().filter(|_| routines.has_compensated());
     let bounds =
         |bounds| ones(corrected.clone().map(|one| bound(&routines.description, one.kind, bounds)).collect());
     let by_default =

@@ -3,12 +3,11 @@
 use std::borrow::Cow;
 
 use abbe_core::Function;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Function as Operator, Lookup};
+use abbe_spec::{Function as Operator, Lookup, Spec};
 
-use super::real::Real;
-use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
-use crate::print::names::function_of;
+use super::Real;
+use crate::print::expression::Called;
+use crate::print::{Binding, Expression, Syntax, arithmetic, function_of};
 use crate::program::Action;
 
 /// The syntax of C for a spec, whose names and tables occur in the file.

@@ -4,12 +4,10 @@ use std::fmt::Display;
 
 use abbe_core::compensator::Status;
 
-use super::heads::{RESTRICT, broken, comment};
-use super::real::Real;
-use crate::print::expression::{Binding, Expression, Value};
-use crate::print::flat::{Results, filled};
-use crate::print::layout::{Writer, harmless};
-use crate::print::procedure::{Called, Invocation, Printer, arrays};
+use super::{RESTRICT, Real, broken, comment};
+use crate::print::{
+    Binding, Called, Expression, Invocation, Printer, Results, Value, Writer, arrays, filled, harmless,
+};
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::Routines;
 

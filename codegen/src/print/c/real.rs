@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use abbe_spec::expr::Table;
+use abbe_spec::Table;
 
 use crate::procedure::Precision;
 

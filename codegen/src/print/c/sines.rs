@@ -3,7 +3,7 @@
 
 use abbe_core::sin_cos::{COSINE, EXACT_PARTS, FRAC_2_PI, SINE};
 
-use super::real::Real;
+use super::Real;
 
 /// Constants of a precision, those of `abbe`'s `sin_cos` in double precision: a test checks that
 /// both return the same bits.

@@ -2,13 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use abbe_spec::expr::Function;
+use abbe_spec::Function;
 
-use super::procedures::CPrinter;
-use super::real::Real;
-use super::sines;
-use crate::print::layout::Writer;
-use crate::print::procedure::Printer;
+use super::{CPrinter, Real, sines};
+use crate::print::{Printer, Writer};
 use crate::procedure::{clamped, least_and_greatest, side, sign};
 use crate::program::{Action, Routines};
 
@@ -30,8 +27,7 @@ pub(super) enum Support {
 impl Support {
     /// Returns the helpers that the functions with this text use.
     pub(super) fn used(routines: &Routines, functions: &str) -> BTreeSet<Self> {
-        let programs = routines.programs();
-        let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
+        let actions = routines.programs().flat_map(|program| program.steps.iter().map(|step| step.action));
         let mut used: BTreeSet<Self> = actions.filter_map(Self::for_action).collect();
         let is_clamped = routines.has_commands() || routines.used_lookup_tables().next().is_some();
         used.extend(Some(Self::Clamped).filter(|_| is_clamped));

@@ -6,8 +6,8 @@
 
 use abbe_spec::Spec;
 
-use super::variables::{CORRECTION, Causality, Variable, Variables, definitions};
 use super::xml::{Element, escaped};
+use super::{CORRECTION, Causality, Variable, Variables, definitions};
 
 /// Returns `modelDescription.xml`.
 pub(super) fn model(spec: &Spec, fmi: Fmi, variables: &Variables, token: &str, sources: &[String]) -> String {

@@ -3,9 +3,8 @@
 
 use abbe_spec::Spec;
 
-use super::variables::{CORRECTED, OUTPUTS, Variables};
-use crate::print::c::Real;
-use crate::print::layout::{NOT_CLOSED, Writer};
+use super::{CORRECTED, OUTPUTS, Variables};
+use crate::print::{NOT_CLOSED, Real, Writer};
 
 /// Returns the header.
 pub(super) fn header(spec: &Spec, variables: &Variables, token: &str, included: &str) -> String {

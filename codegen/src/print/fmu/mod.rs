@@ -13,9 +13,8 @@ mod xml;
 use abbe_spec::Spec;
 use sha2::{Digest, Sha256};
 
-use self::variables::Variables;
-use super::c::{self, Real};
-use super::layout::SourceFile;
+use self::variables::{CORRECTED, CORRECTION, Causality, OUTPUTS, Variable, Variables, definitions};
+use super::{Real, SourceFile, c};
 use crate::chain::Model;
 use crate::program::Routines;
 pub use description::Fmi;
@@ -31,8 +30,7 @@ pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, fmi: Fmi) -
     let mut sources = c::files(spec, model, routines, Real::Double);
     let compiled = [sources[1].name.clone(), fmi.source().0.to_owned()];
     let file = |name: &str, text: String| SourceFile { name: name.to_owned(), text };
-    let header = machine::header(spec, &variables, &token, &sources[0].name);
-    sources.push(file("fmi-machine.h", header));
+    sources.push(file("fmi-machine.h", machine::header(spec, &variables, &token, &sources[0].name)));
     sources.push(file("fmi-instance.h", include_str!("fmi-instance.h").to_owned()));
     sources.push(file(fmi.source().0, fmi.source().1.to_owned()));
     if fmi == Fmi::Three {

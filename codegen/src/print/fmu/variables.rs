@@ -7,8 +7,7 @@ use std::collections::BTreeSet;
 
 use abbe_core::function::Signature;
 use abbe_core::{Function, LengthUnit, Orientation, Quantity, VariableKind};
-use abbe_spec::expr::Dimension;
-use abbe_spec::{MAGNITUDE, Spec};
+use abbe_spec::{Dimension, MAGNITUDE, Spec};
 
 use super::xml::Element;
 

@@ -6,13 +6,11 @@ use abbe_core::function::{BEGIN, Signature};
 use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
+use super::JavaScriptPrinter;
 use super::operators::JavaScript;
-use super::procedures::{JavaScriptPrinter, one_or_object};
-use crate::print::flat::Flat;
-use crate::print::layout::{Writer, sizes};
-use crate::print::procedure::{Printer, commands};
+use super::procedures::one_or_object;
 use crate::print::routine::statements;
-use crate::print::statements::Statements;
+use crate::print::{Flat, Printer, Statements, Writer, commands, sizes};
 use crate::procedure::Precision;
 use crate::program::{Role, Routine, Routines};
 

@@ -8,17 +8,14 @@ mod functions;
 mod operators;
 mod procedures;
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
 use self::functions::function;
 use self::operators::number;
 use self::procedures::{JavaScriptPrinter, comment};
 use super::header::header;
-use super::layout::{Writer, escaped};
 use super::lists::{lists, records};
-use super::names::function_of;
-use super::procedure::Printer;
+use super::{Printer, Writer, escaped, function_of};
 use crate::procedure::{clamped, look_up};
 use crate::program::Routines;
 

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use abbe_spec::expr::{Function, Lookup, Table};
+use abbe_spec::{Function, Lookup, Table};
 
-use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic, literal};
-use crate::print::names::function_of;
+use crate::print::expression::Called;
+use crate::print::{Binding, Expression, Syntax, arithmetic, function_of, literal};
 use crate::program::Action;
 
 /// The syntax of JavaScript with the spec's tables.

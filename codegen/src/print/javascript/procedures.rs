@@ -2,11 +2,8 @@
 
 use abbe_core::compensator::Status;
 
-use super::operators::number;
-use crate::print::expression::{Expression, Value};
-use crate::print::flat::filled;
-use crate::print::layout::{OPEN, Writer};
-use crate::print::procedure::{Invocation, Printer};
+use super::number;
+use crate::print::{Expression, Invocation, OPEN, Printer, Value, Writer, filled};
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::{Routine, Routines, Stage};
 

@@ -6,13 +6,10 @@ use abbe_core::function::{self, BEGIN, Signature};
 use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
+use super::MatlabPrinter;
 use super::operators::Matlab;
-use super::procedures::MatlabPrinter;
-use crate::print::flat::Flat;
-use crate::print::layout::{Writer, sizes};
-use crate::print::procedure::{Printer, commands};
 use crate::print::routine::statements;
-use crate::print::statements::Statements;
+use crate::print::{Flat, Printer, Statements, Writer, commands, sizes};
 use crate::procedure::Precision;
 use crate::program::{Role, Routines};
 

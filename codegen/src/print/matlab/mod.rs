@@ -13,18 +13,14 @@ use std::collections::HashSet;
 use abbe_core::Description;
 use abbe_core::compensator::{CHANGE, LARGEST, bound};
 use abbe_core::function::COMMANDS;
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
 use self::functions::function;
 use self::operators::{WORDS, number, spelled};
 use self::procedures::{MatlabPrinter, list};
-use super::flat::Flat;
 use super::header::header;
-use super::layout::{SourceFile, Writer, escaped, harmless, wrapped};
 use super::lists::lists;
-use super::names::{distinct, function_of, renamed};
-use super::procedure::Printer;
+use super::{Flat, Printer, SourceFile, Writer, distinct, escaped, function_of, harmless, renamed, wrapped};
 use crate::procedure::{
     Precision, Procedure, clamped, compensated as described, least_and_greatest, look_up, side,
 };

@@ -2,11 +2,10 @@
 
 use std::borrow::Cow;
 
-use abbe_spec::Spec;
-use abbe_spec::expr::{Function, Lookup};
+use abbe_spec::{Function, Lookup, Spec};
 
-use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic, literal};
-use crate::print::names::{Identifiers, function_of};
+use crate::print::expression::Called;
+use crate::print::{Binding, Expression, Identifiers, Syntax, arithmetic, function_of, literal};
 use crate::program::Action;
 
 /// The syntax of Matlab for a class, whose name precedes its members, and a spec, whose tables are

@@ -1,9 +1,7 @@
 //! Statements and procedures in Matlab.
 
-use super::operators::number;
-use crate::print::expression::{Binding, Expression};
-use crate::print::layout::{OPEN, Writer, harmless};
-use crate::print::procedure::{Called, Invocation, Printer};
+use super::number;
+use crate::print::{Binding, Called, Expression, Invocation, OPEN, Printer, Writer, harmless};
 use crate::procedure::{Counter, Index, Procedure, Variable};
 use crate::program::Routines;
 

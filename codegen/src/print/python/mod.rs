@@ -9,18 +9,15 @@ mod functions;
 mod operators;
 mod procedures;
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
 use abbe_spec::literal::quoted;
+use abbe_spec::{Spec, Table};
 
 use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
 use self::procedures::PythonPrinter;
 use super::header::header;
-use super::layout::{SourceFile, Writer, escaped, harmless};
 use super::lists::{lists, records};
-use super::names::{file_name, function_of, renamed};
-use super::procedure::Printer;
+use super::{Printer, SourceFile, Writer, escaped, file_name, function_of, harmless, renamed};
 use crate::procedure::look_up;
 use crate::program::Routines;
 

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use abbe_spec::expr::{Function, Lookup, Table};
+use abbe_spec::{Function, Lookup, Table};
 
-use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic, literal};
-use crate::print::names::function_of;
+use crate::print::expression::Called;
+use crate::print::{Binding, Expression, Syntax, arithmetic, function_of, literal};
 use crate::program::Action;
 
 /// The syntax of Python with the spec's tables.
@@ -34,8 +34,7 @@ impl Syntax for Python<'_> {
             Called::Least => call("minimum"),
             Called::Greatest => call("maximum"),
             Called::Function(Function::Side) => {
-                let text = format!("np.where({} >= 0, 1.0, -1.0)", operands[0].text);
-                Expression::new(text, Binding::Atom)
+                Expression::new(format!("np.where({} >= 0, 1.0, -1.0)", operands[0].text), Binding::Atom)
             }
             Called::Function(Function::Asin) => call("arcsin"),
             Called::Function(Function::Acos) => call("arccos"),

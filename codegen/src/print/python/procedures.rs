@@ -5,10 +5,8 @@
 
 use abbe_core::compensator::Status;
 
-use super::operators::number;
-use crate::print::expression::{Binding, Expression, Value};
-use crate::print::layout::{OPEN, Writer, harmless};
-use crate::print::procedure::{Invocation, Printer};
+use super::number;
+use crate::print::{Binding, Expression, Invocation, OPEN, Printer, Value, Writer, harmless};
 use crate::procedure::{Condition, Counter, Index, Procedure, Statement, Variable};
 use crate::program::{Role, Routines};
 

@@ -7,7 +7,7 @@ use abbe_spec::{Spec, Variable};
 
 use super::operators::number;
 use crate::chain::{Model, lower_pairs};
-use crate::print::layout::{Writer, array, call, described, escaped};
+use crate::print::{Writer, array, call, described, escaped};
 
 /// Types that a generated module defines or imports, and types of the prelude.
 const TAKEN: &str = "Box Class Clone Component Copy Debug Default Description Distribution Drop Effect Eq Err \
@@ -78,8 +78,7 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
         let mut fields = vec![quoted(&frame.name), format!("{:?}", frame.variable)];
         if !spec.is_serial() {
             let passive = frame.passive.map_or("None".to_owned(), |passive| {
-                let fields = variable(entries + 8, &spec.passive[passive]);
-                call(entries + 5, "Some(Variable::new", &fields) + ")"
+                call(entries + 5, "Some(Variable::new", &variable(entries + 8, &spec.passive[passive])) + ")"
             });
             fields.extend([format!("{:?}", frame.parent), passive, (index == spec.tool_frame).to_string()]);
         }
@@ -98,8 +97,7 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
     });
     list("sum_limits", sums.collect());
     let parameters = spec.parameters.iter().map(|parameter| {
-        let value = number(parameter.value);
-        ("Parameter::new", vec![quoted(&parameter.name), value, quoted(&parameter.unit)])
+        ("Parameter::new", vec![quoted(&parameter.name), number(parameter.value), quoted(&parameter.unit)])
     });
     list("parameters", parameters.collect());
     let inputs = spec.inputs.iter().map(|input| {

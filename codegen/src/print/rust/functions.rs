@@ -5,10 +5,9 @@ use abbe_core::function::Count;
 use abbe_spec::Spec;
 
 use super::operators::Rust;
-use crate::print::expression::{Expression, Statement, Value};
-use crate::print::flat::Flat;
-use crate::print::layout::{Writer, array, call, fits, pattern, width};
-use crate::print::statements::Statements;
+use crate::print::{
+    Expression, Flat, Statement, Statements, Value, Writer, array, call, fits, pattern, width,
+};
 use crate::program::{Array, ArrayRows, Block, Role, Routine, Routines, Row, Stage};
 
 /// Prints one function.

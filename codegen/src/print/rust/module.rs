@@ -6,16 +6,15 @@
 mod tests;
 
 use abbe_core::{Class, Function, Orientation};
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
 use super::face;
 use super::functions::{error_columns, raw_function, shares_columns};
 use super::operators::{looks_like_named, number};
 use crate::chain::{Model, is_long};
 use crate::print::header::header;
-use crate::print::layout::{Writer, array, escaped};
 use crate::print::lists::numbers;
+use crate::print::{Writer, array, escaped};
 use crate::program::{Routines, Sums};
 
 /// Counts that are sizes of arrays.

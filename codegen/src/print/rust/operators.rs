@@ -6,9 +6,9 @@ use std::borrow::Cow;
 use std::f64::consts;
 use std::sync::Arc;
 
-use abbe_spec::expr::{Function, Lookup, Table};
+use abbe_spec::{Function, Lookup, Table};
 
-use crate::print::expression::{Binding, Expression, Syntax, infix};
+use crate::print::{Binding, Expression, Syntax, infix};
 use crate::program::{Action, Operand};
 
 /// The syntax of Rust with the spec's tables.

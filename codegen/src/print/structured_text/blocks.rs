@@ -5,18 +5,12 @@ use std::collections::HashSet;
 use abbe_core::function::Array as Described;
 use abbe_spec::Spec;
 
-use super::declarations::{
-    argument, array, array_name, array_type, comment, document, numbers, section, variables,
-};
-use super::operators::{StructuredText, initial, instance, number};
+use super::declarations::{argument, array, array_name, array_type, document, numbers, section, variables};
 use super::procedures::BlockPrinter;
-use crate::print::expression::Statement;
-use crate::print::flat::Flat;
-use crate::print::layout::Writer;
+use super::{StructuredText, comment, initial, instance, number};
 use crate::print::lists::lists;
-use crate::print::procedure::Printer;
 use crate::print::routine::statements;
-use crate::print::statements::Statements;
+use crate::print::{Flat, Printer, Statement, Statements, Writer};
 use crate::program::{Role, Routine, Routines, Row, Stage};
 
 /// Largest sum of the sizes of results, of numbers that are a REAL as well.

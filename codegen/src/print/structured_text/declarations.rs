@@ -4,8 +4,9 @@ use abbe_core::Description;
 use abbe_core::function::Array;
 use abbe_spec::Spec;
 
-use super::operators::initial;
-use crate::print::layout::{Writer, harmless as on_one_line, width};
+use super::initial;
+use crate::print::layout::harmless as on_one_line;
+use crate::print::{Writer, width};
 
 /// Maximum length of a line.
 const LINE: usize = 100;
@@ -64,8 +65,7 @@ pub(super) fn variables(writer: &mut Writer, names: &[String], type_name: &str) 
             length += width(name) + 2;
             length <= room
         };
-        let count = rest.iter().take_while(fits).count().max(1);
-        let (line, others) = rest.split_at(count);
+        let (line, others) = rest.split_at(rest.iter().take_while(fits).count().max(1));
         writer.lines(&format!("{} : {type_name};", line.join(", ")));
         rest = others;
     }

@@ -19,11 +19,11 @@ use abbe_spec::Spec;
 
 use self::blocks::block;
 use self::declarations::{comment, harmless};
-use self::operators::StructuredText;
+use self::operators::{StructuredText, initial, instance, number};
 use self::procedures::scalar;
 use self::support::Support;
 use super::header::header;
-use super::layout::{NOT_CLOSED, SourceFile, Writer};
+use super::{NOT_CLOSED, SourceFile, Writer};
 use crate::procedure::Precision;
 use crate::program::Routines;
 

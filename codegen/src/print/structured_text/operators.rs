@@ -3,12 +3,11 @@
 use std::borrow::Cow;
 
 use abbe_core::Function as Routine;
-use abbe_spec::Spec;
-use abbe_spec::expr::{Function, Lookup};
+use abbe_spec::{Function, Lookup, Spec};
 
-use super::support::Support;
-use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
-use crate::print::names::{Identifiers, distinct};
+use super::Support;
+use crate::print::expression::Called;
+use crate::print::{Binding, Expression, Identifiers, Syntax, arithmetic, distinct};
 use crate::procedure::{Precision, compensated};
 use crate::program::{Action, Routines};
 

@@ -9,16 +9,14 @@
 use abbe_core::compensator::{CHANGE, LARGEST, bound};
 use abbe_core::function::{COMPENSATED, Signature};
 use abbe_core::{Description, LookupTable};
-use abbe_spec::Spec;
-use abbe_spec::expr::Table;
+use abbe_spec::{Spec, Table};
 
-use super::declarations::{argument, array_name, array_type, comment, document, numbers, section, variables};
-use super::operators::{instance, number};
-use super::support::Support;
-use crate::print::expression::{Binding, Expression, Value};
-use crate::print::flat::Results;
-use crate::print::layout::{LINE, Writer, escaped, width};
-use crate::print::procedure::{Called, Invocation, Printer, arrays, commands};
+use super::declarations::{argument, array_name, array_type, document, numbers, section, variables};
+use super::{Support, comment, instance, number};
+use crate::print::{
+    Binding, Called, Expression, Invocation, LINE, Printer, Results, Value, Writer, arrays, commands,
+    escaped, width,
+};
 use crate::procedure::{Index, Kind, Precision, Procedure, Variable, look_up};
 use crate::program::{Routine, Routines};
 
@@ -201,8 +199,7 @@ impl Printer for BlockPrinter<'_> {
         is_descending: bool,
         body: impl FnOnce(&mut Self),
     ) {
-        let ends = range.each_ref().map(Index::number);
-        if let [Some(first), Some(behind)] = ends
+        if let [Some(first), Some(behind)] = range.each_ref().map(Index::number)
             && behind == first + 1
         {
             self.assign(counter, &first.to_string(), None);
@@ -275,8 +272,7 @@ pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, pref
         writer.lines(&format!("FUNCTION_BLOCK {prefix}_{}", signature.name));
         interface(writer, prefix, spec, &routines.description, signature);
         let kept = Variable { name: "last", kind: Kind::Array(spec.variables.len()) };
-        let sum = Variable { name: "sum", kind: Kind::Real };
-        let more = [kept, sum];
+        let more = [kept, Variable { name: "sum", kind: Kind::Real }];
         declarations(writer, &procedure, prefix, if is_cycle { &more } else { &more[1..] });
         let count = spec.variables.len().to_string();
         for text in [RESUME, ROTATIONS].into_iter().filter(|text| is_cycle || *text == ROTATIONS) {

@@ -4,8 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Function;
+use abbe_spec::{Function, Spec};
 
 use crate::procedure::{Procedure, clamped, side, sign};
 use crate::program::{Action, Operand, Routines};
@@ -70,8 +69,7 @@ impl Support {
 
     /// Returns the functions that a file uses.
     pub(super) fn used(spec: &Spec, routines: &Routines, has_commands: bool) -> BTreeSet<Self> {
-        let programs = routines.programs();
-        let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
+        let actions = routines.programs().flat_map(|program| program.steps.iter().map(|step| step.action));
         let used = actions.filter_map(|action| match action {
             Action::SinCos(_) => Some(Self::CosineAndSine),
             _ => Self::for_action(action),

@@ -4,7 +4,7 @@ use abbe_core::Function;
 use abbe_core::compensator::{ITERATIONS, Status};
 use abbe_core::function::BEGIN;
 
-use super::machine::{HUGE, Machine, weigh};
+use super::{HUGE, Machine, weigh};
 use crate::procedure::{Procedure, Whole};
 
 /// Describes [`abbe_core::compensator::begin`].

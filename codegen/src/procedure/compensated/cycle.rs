@@ -5,8 +5,8 @@ use abbe_core::compensator::{CONTRACTION, ITERATIONS, SHORTER, Status};
 use abbe_core::function::COMPENSATED;
 
 use super::departure::departure;
-use super::machine::{HUGE, Machine, weigh};
 use super::variables::Cycle;
+use super::{HUGE, Machine, weigh};
 use crate::procedure::build::{Array, Real};
 use crate::procedure::{Body, Condition, Procedure, Value, Whole};
 

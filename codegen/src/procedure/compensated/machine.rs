@@ -139,8 +139,7 @@ pub(super) fn deviation(machine: &Machine<'_>) -> Procedure {
         let square = |k: usize| v.at(k) * v.at(k);
         b.set(twice_sine, (square(0) + square(1) + square(2)).sqrt());
         b.set(scale, 0.5);
-        let least = machine.precision.tolerances().least_sine;
-        b.when(twice_sine.get().is_at_least(least), |b| {
+        b.when(twice_sine.get().is_at_least(machine.precision.tolerances().least_sine), |b| {
             let twice_cosine = turn.at(0) + turn.at(4) + turn.at(8) - 1.0;
             b.set(scale, twice_sine.get().atan2(twice_cosine) / twice_sine);
         });

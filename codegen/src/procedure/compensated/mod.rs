@@ -14,8 +14,8 @@ mod variables;
 
 use abbe_spec::Spec;
 
-use self::machine::Machine;
 pub use self::machine::Precision;
+use self::machine::{HUGE, Machine, positive, weigh};
 use super::Procedure;
 
 /// Returns the procedures of the corrected command and of its inverse, which come last, each behind

@@ -1,6 +1,6 @@
 //! Shortest step by normal equations.
 
-use super::machine::{Machine, positive};
+use super::{Machine, positive};
 use crate::procedure::build::Array;
 use crate::procedure::value::below;
 use crate::procedure::{Body, Procedure};

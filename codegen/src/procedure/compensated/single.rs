@@ -5,7 +5,7 @@
 //! singular value of 0.1, that is 1e-4: squares of such rows, as normal equations have them, would
 //! have no significant digits. The damping lies between the two, as in double precision.
 
-use super::machine::Machine;
+use super::Machine;
 use crate::procedure::build::Array;
 use crate::procedure::value::below;
 use crate::procedure::{Body, Procedure};

@@ -2,7 +2,7 @@
 
 use abbe_core::Function;
 
-use super::machine::{Machine, positive};
+use super::{Machine, positive};
 use crate::procedure::build::{Array, Real};
 use crate::procedure::{Body, Value};
 

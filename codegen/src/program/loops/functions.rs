@@ -3,11 +3,11 @@
 use abbe_core::Orientation;
 use abbe_core::function::Count;
 
-use super::routine_builder::{Body, POSE, RoutineBuilder, RowsArray};
 use super::sums::Twists;
+use super::{Body, POSE, RoutineBuilder, RowsArray};
 use crate::chain::{Accumulated, Columns, Local, swing};
 use crate::graph::Node;
-use crate::program::routine::{Row, Stage};
+use crate::program::{Row, Stage};
 
 impl RoutineBuilder<'_, '_> {
     /// Computes `J_e`: all of its columns, or only the entries that are neither zero nor repeated.

@@ -13,9 +13,9 @@ mod walk;
 
 use abbe_core::Function;
 
-use self::routine_builder::RoutineBuilder;
+use self::routine_builder::{Body, POSE, RoutineBuilder, RowsArray};
 pub(super) use self::sums::FrameLoops;
-use super::routine::{Array, Routine, Stage, Sums, Table};
+use super::{Array, Routine, Stage, Sums, Table};
 use crate::chain::{Covariance, Displacement};
 
 impl FrameLoops<'_> {

@@ -2,11 +2,11 @@
 //! it reads become symbols of its own graph.
 
 use abbe_core::function::Count;
-use abbe_spec::expr::Symbol;
+use abbe_spec::Symbol;
 
-use super::sums::FrameLoops;
+use super::FrameLoops;
 use crate::chain::Rows;
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Node, Six, Vector};
 use crate::program::{Array, ArrayRows, Block, Program, Repeated, Role, Row, Stage};
 
 /// Dimensions of a pose.
@@ -138,7 +138,7 @@ impl Body {
         [0, 1, 2].map(|i| numbers[i])
     }
 
-    pub(super) fn six(&mut self, array: usize, row: Row) -> [Node; 6] {
+    pub(super) fn six(&mut self, array: usize, row: Row) -> Six {
         let numbers = self.read(array, row, 6);
         [0, 1, 2, 3, 4, 5].map(|i| numbers[i])
     }

@@ -2,12 +2,10 @@
 
 use abbe_core::function::Count;
 
-use super::routine_builder::{Body, POSE, RoutineBuilder};
-use super::sums::FrameLoops;
+use super::{Body, FrameLoops, POSE, RoutineBuilder};
 use crate::chain::displaced;
-use crate::graph::Node;
-use crate::program::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage};
-use crate::program::{Operations, Program};
+use crate::graph::Six;
+use crate::program::{Array, ArrayRows, Block, Operations, Program, Role, Routine, Row, Stage};
 
 /// Dimensions of the poses of the base, of all frames and of the tool.
 const CHAIN: [Count; 3] = [Count::BaseToTool, POSE[0], POSE[1]];
@@ -102,7 +100,7 @@ impl RoutineBuilder<'_, '_> {
 
     /// Computes equation (6) from the base to the tip: `X ← X A_i E_i`, where the tool has no
     /// error. The errors are the given ones, or ε.
-    pub(super) fn real_pose(&mut self, errors: Option<&[[Node; 6]]>) {
+    pub(super) fn real_pose(&mut self, errors: Option<&[Six]>) {
         let errors = match errors {
             Some(errors) => self.errors(errors),
             None => self.generalized_errors(),
@@ -125,7 +123,7 @@ impl RoutineBuilder<'_, '_> {
     }
 
     /// Computes six errors for every frame, one by one.
-    fn errors(&mut self, errors: &[[Node; 6]]) -> usize {
+    fn errors(&mut self, errors: &[Six]) -> usize {
         let array = self.zeros("errors", &[Count::Frames, Count::Exactly(6)]);
         let program = Program::new(&self.loops.model.graph, errors.as_flattened());
         let writes = vec![ArrayRows::all(array)];

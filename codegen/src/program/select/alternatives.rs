@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use abbe_spec::expr::Function;
+use abbe_spec::Function;
 
 use crate::graph::{Graph, Node, Op, Signed};
 

@@ -4,7 +4,7 @@
 //! it if its users save more than it costs; switch a proposed group together; recompute results
 //! after all others.
 
-use super::search::Search;
+use super::Search;
 use crate::graph::Graph;
 
 /// Largest cost of a value that is provided for free. More expensive values hardly ever pay.

@@ -1,7 +1,7 @@
 //! State of the search: selected alternative and number of uses of each class, total cost, and a
 //! log for undo.
 
-use super::alternatives::Alternatives;
+use super::Alternatives;
 
 /// Larger than any cost.
 const UNKNOWN: u32 = u32::MAX / 4;

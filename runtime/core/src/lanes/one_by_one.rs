@@ -3,7 +3,7 @@
 use super::{Batches, Tiles, check};
 use crate::twist::twist;
 use crate::{
-    Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, euler_margin,
+    Description, Error, Function, Manipulator, Pose, Result, distinct, drawn_pose, euler_margin,
     repeatable_magnitudes,
 };
 
@@ -20,18 +20,13 @@ impl<M: Manipulator> Manipulator for OneByOne<M> {
         self.0.description()
     }
 
-    fn evaluate(
-        &self,
-        function: Function,
-        arguments: &[&[f64]],
-        results: &mut [&mut [f64]],
-    ) -> Result<(), Error> {
+    fn evaluate(&self, function: Function, arguments: &[&[f64]], results: &mut [&mut [f64]]) -> Result<()> {
         self.0.evaluate(function, arguments, results)
     }
 }
 
 impl<M: Manipulator> Batches for OneByOne<M> {
-    fn batch(&self, function: Function, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
+    fn batch(&self, function: Function, arguments: &Tiles, results: &mut Tiles) -> Result<()> {
         one_by_one(&self.0, function, arguments, results)
     }
 }
@@ -42,7 +37,7 @@ pub fn one_by_one(
     function: Function,
     arguments: &Tiles,
     results: &mut Tiles,
-) -> Result<(), Error> {
+) -> Result<()> {
     let description = manipulator.description();
     check(function, description, arguments, results)?;
     let mut given = vec![0.0; arguments.rows()];
@@ -76,7 +71,7 @@ struct Configuration<'a, M: ?Sized> {
 impl<M: Manipulator + ?Sized> Configuration<'_, M> {
     /// Returns the results of a function, the margin last. `third` is the third argument: u, ε,
     /// variances, or a pose.
-    fn values(&self, function: Function, third: &[f64], magnitudes: &[f64]) -> Result<Vec<f64>, Error> {
+    fn values(&self, function: Function, third: &[f64], magnitudes: &[f64]) -> Result<Vec<f64>> {
         let Self { manipulator, description, q, s } = *self;
         let mut values = match function {
             Function::ErrorJacobian => {
@@ -121,7 +116,7 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
 
     /// Returns the results of a function without the margin. Manipulators need not have functions
     /// without results.
-    fn evaluated(&self, function: Function, third: &[f64]) -> Result<Vec<f64>, Error> {
+    fn evaluated(&self, function: Function, third: &[f64]) -> Result<Vec<f64>> {
         let signature = function.signature();
         let arrays = signature.results.iter();
         let mut values: Vec<Vec<f64>> = arrays.map(|array| vec![0.0; array.len(self.description)]).collect();
@@ -134,7 +129,7 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
     }
 
     /// Returns the pose and `J_e`. Singular Euler rows are NaN.
-    fn error_jacobian(&self) -> Result<(Pose, Vec<[f64; 6]>), Error> {
+    fn error_jacobian(&self) -> Result<(Pose, Vec<[f64; 6]>)> {
         let mut columns = vec![[f64::NAN; 6]; 6 * self.description.frames.len()];
         match self.manipulator.error_jacobian(self.q, self.s, &mut columns) {
             Err(Error::EulerSingularity { .. }) => {
@@ -147,7 +142,7 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
 
     /// Returns the pose, then the distinct numbers of each frame in the order of
     /// [`distinct::number`].
-    fn distinct(&self) -> Result<Vec<f64>, Error> {
+    fn distinct(&self) -> Result<Vec<f64>> {
         let (pose, columns) = self.error_jacobian()?;
         let mut values = flat(&[pose]);
         if !self.description.is_chain() {
@@ -164,14 +159,14 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
     }
 
     /// Returns `J_e ε`.
-    fn displacement(&self, errors: &[f64]) -> Result<[f64; 6], Error> {
+    fn displacement(&self, errors: &[f64]) -> Result<[f64; 6]> {
         let (_, columns) = self.error_jacobian()?;
         let parts = columns.iter().zip(errors).map(|(column, error)| column.map(|entry| entry * error));
         Ok(parts.fold([0.0; 6], |sum, part| core::array::from_fn(|row| sum[row] + part[row])))
     }
 
     /// Returns `J_e diag(σ²) J_eᵀ`.
-    fn covariance(&self, variances: &[f64]) -> Result<[[f64; 6]; 6], Error> {
+    fn covariance(&self, variances: &[f64]) -> Result<[[f64; 6]; 6]> {
         let (_, columns) = self.error_jacobian()?;
         let mut covariance = [[0.0; 6]; 6];
         for (column, variance) in columns.iter().zip(variances) {
@@ -182,7 +177,7 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
         Ok(covariance)
     }
 
-    fn source_displacements(&self, u: &[f64]) -> Result<Vec<[f64; 6]>, Error> {
+    fn source_displacements(&self, u: &[f64]) -> Result<Vec<[f64; 6]>> {
         let ((_, columns), effects) = (self.error_jacobian()?, self.evaluated(Function::Effects, u)?);
         let mut displacements = vec![[0.0; 6]; self.description.sources.len()];
         for (effect, value) in self.description.effects.iter().zip(effects) {
@@ -193,7 +188,7 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
         Ok(displacements)
     }
 
-    fn real_pose(&self, u: &[f64]) -> Result<Pose, Error> {
+    fn real_pose(&self, u: &[f64]) -> Result<Pose> {
         drawn_pose(self.manipulator, self.q, self.s, u, &repeatable_magnitudes(self.description))
     }
 }

@@ -3,8 +3,7 @@
 use super::{Lanes, Mask, Register, arc_tangent};
 use crate::register::WIDEST;
 use crate::scalar::ROUND;
-use crate::sin_cos;
-use crate::{LookupTable, Scalar};
+use crate::{LookupTable, Scalar, sin_cos};
 
 impl<R: Register> Scalar for Lanes<R> {
     #[inline(always)]

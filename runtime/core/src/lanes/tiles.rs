@@ -213,8 +213,7 @@ impl Tiles {
     #[inline(always)]
     pub fn tile<R: Register>(&self, tile: usize) -> &[Lanes<R>] {
         assert!(R::WIDTH == self.set.width(), "lanes of another instruction set");
-        let lanes = bytemuck::cast_slice::<Line, Lanes<R>>(&self.lines);
-        &lanes[tile * self.rows..][..self.rows]
+        &bytemuck::cast_slice::<Line, Lanes<R>>(&self.lines)[tile * self.rows..][..self.rows]
     }
 
     /// Returns the rows of a tile for writing.
@@ -225,8 +224,7 @@ impl Tiles {
     #[inline(always)]
     pub fn tile_mut<R: Register>(&mut self, tile: usize) -> &mut [Lanes<R>] {
         assert!(R::WIDTH == self.set.width(), "lanes of another instruction set");
-        let lanes = bytemuck::cast_slice_mut::<Line, Lanes<R>>(&mut self.lines);
-        &mut lanes[tile * self.rows..][..self.rows]
+        &mut bytemuck::cast_slice_mut::<Line, Lanes<R>>(&mut self.lines)[tile * self.rows..][..self.rows]
     }
 
     fn numbers(&self) -> &[f64] {

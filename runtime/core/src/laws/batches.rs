@@ -1,12 +1,9 @@
 //! Batches equal single configurations, on every instruction set.
 
-use super::samples::Subject;
-use super::{Discrepancy, Failure};
+use super::{Discrepancy, Failure, Subject};
 use crate::function::{Array, Count};
-use crate::lanes::Sweepable;
-use crate::lanes::{Batches, InstructionSet, Tiles, one_by_one};
-use crate::{Description, Error, Function, Manipulator, Quantity};
-use crate::{distinct, sampling};
+use crate::lanes::{Batches, InstructionSet, Sweepable, Tiles, one_by_one};
+use crate::{Description, Error, Function, Manipulator, Quantity, distinct, sampling};
 
 /// Compares every function evaluated in batches with the methods for one configuration, on every
 /// instruction set of this machine. Lengths are relative to the arm length.

@@ -1,7 +1,6 @@
 //! The promises of the trait besides derivatives: one pose, finite outputs, guarded inputs.
 
-use super::samples::{Sample, Subject};
-use super::{Configuration, Discrepancy, Failure};
+use super::{Configuration, Discrepancy, Failure, Sample, Subject};
 use crate::{Error, Manipulator, Pose};
 
 /// Compares the pose, from every method that returns it, with the product of the transforms.

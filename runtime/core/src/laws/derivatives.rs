@@ -5,8 +5,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::samples::{Sample, Subject};
-use super::{Discrepancy, Failure};
+use super::{Discrepancy, Failure, Sample, Subject};
 use crate::chain::displacement;
 use crate::{Component, Description, Error, Manipulator, Pose, deviation, drawn_pose, tool_pose};
 

@@ -1,7 +1,6 @@
 //! The remainder that `ΔX ≈ J_e ε` neglects is of second order.
 
-use super::samples::{Sample, Subject};
-use super::{Configuration, Failure};
+use super::{Configuration, Failure, Sample, Subject};
 use crate::{Component, Manipulator, deviation};
 
 /// Sizes of the errors, in rad and arm lengths.

@@ -1,8 +1,7 @@
 //! The configurations at which laws are checked.
 
 use super::{Configuration, Failure};
-use crate::sampling;
-use crate::{Error, Manipulator, Pose, euler_margin, tool_pose};
+use crate::{Error, Manipulator, Pose, euler_margin, sampling, tool_pose};
 
 /// Smallest `cos ρ` at which Euler rows are compared: differences lose digits near the singularity.
 const EULER_MARGIN: f64 = 0.05;
@@ -120,8 +119,7 @@ impl<'a> Subject<'a> {
 
     /// Returns `A_1 … A_n` and `T`.
     pub(super) fn transforms(&self, q: &[f64], s: &[f64]) -> Result<Vec<Pose>, Error> {
-        let frames = self.manipulator.description().frames.len();
-        let mut transforms = vec![Pose::IDENTITY; frames + 1];
+        let mut transforms = vec![Pose::IDENTITY; self.manipulator.description().frames.len() + 1];
         self.manipulator.transforms(q, s, &mut transforms)?;
         Ok(transforms)
     }

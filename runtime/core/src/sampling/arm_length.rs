@@ -9,7 +9,7 @@ use std::vec::Vec;
 
 use super::vectors::{add, cross, distance, dot, norm, scale, subtract};
 use super::{halton, home};
-use crate::{Description, Error, Manipulator, Pose, VariableKind};
+use crate::{Description, Manipulator, Pose, Result, VariableKind};
 
 /// Motion of all joints at home by which the axes are found: in rad, and in sums of the lengths of
 /// the transforms.
@@ -63,7 +63,7 @@ impl JointAxis {
 ///
 /// In a tree it is the longest of the ways to its frames and to the tool. A machine with neither
 /// lengths nor travel has the size 1 m. Errors as for [`Manipulator::transforms`].
-pub fn arm_length(manipulator: &dyn Manipulator, s: &[f64]) -> Result<f64, Error> {
+pub fn arm_length(manipulator: &dyn Manipulator, s: &[f64]) -> Result<f64> {
     arm_length_within(manipulator, s, &[])
 }
 
@@ -71,11 +71,7 @@ pub fn arm_length(manipulator: &dyn Manipulator, s: &[f64]) -> Result<f64, Error
 /// limits. Variables without a finite range have no travel.
 ///
 /// Otherwise as [`arm_length`].
-pub fn arm_length_within(
-    manipulator: &dyn Manipulator,
-    s: &[f64],
-    ranges: &[[f64; 2]],
-) -> Result<f64, Error> {
+pub fn arm_length_within(manipulator: &dyn Manipulator, s: &[f64], ranges: &[[f64; 2]]) -> Result<f64> {
     let description = manipulator.description();
     let at = |q: &[f64]| {
         let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];

@@ -5,8 +5,7 @@
 
 use abbe_core::{Component, VariableKind};
 
-use super::declarations::Declarations;
-use super::keys::{COVARIANCE, COVARIANCE_OF};
+use super::{COVARIANCE, COVARIANCE_OF, Declarations};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Item, Section};
 use crate::expr::{Dimension, Scope, Symbol};

@@ -2,15 +2,13 @@
 
 use abbe_core::{LengthUnit, VariableKind};
 
-use super::keys;
-use super::keys::JOINT_KINDS;
+use super::{JOINT_KINDS, keys};
 use crate::degrees::check_angle_item;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Name, Scope, Symbol};
 use crate::keys::Keys;
-use crate::manipulator::names::check_identifier;
-use crate::manipulator::{Input, Parameter, Variable};
+use crate::manipulator::{Input, Parameter, Variable, check_identifier};
 
 /// Maximum number of parameters, and of inputs.
 const MOST: usize = 10_000;
@@ -141,8 +139,7 @@ impl Declarations {
         let dimension = kind.map(|kind| kind.either(Dimension::NONE, Dimension::LENGTH));
         let name_item = name_item?;
         let name = name_item.string()?;
-        let passive = table.get("passive");
-        let is_passive = passive.and_then(|item| item.boolean()).unwrap_or(false);
+        let is_passive = table.get("passive").and_then(|item| item.boolean()).unwrap_or(false);
         let symbol = match is_passive {
             true => Symbol::Passive(self.passive.len()),
             false => Symbol::Variable(self.variables.len()),

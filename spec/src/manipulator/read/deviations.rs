@@ -1,9 +1,8 @@
 //! Deviations of numbers of the nominal chain: joints, structural parameters, Denavit-Hartenberg
 //! numbers.
 
-use super::effects::find_frame;
 use super::frames::motion_dimension;
-use super::keys;
+use super::{find_frame, keys};
 use crate::degrees::check_error_of_angle;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Item, Section};

@@ -72,8 +72,7 @@ pub(super) fn find_frame(item: &Item<'_>, frames: &[Frame]) -> Option<usize> {
 }
 
 fn read_place(item: &Item<'_>, scope: &Scope) -> Option<Vec<Factor>> {
-    let text = item.located_text()?;
-    let factors = parse_transform(&text, scope, &mut item.document.found.borrow_mut())?;
+    let factors = parse_transform(&item.located_text()?, scope, &mut item.document.found.borrow_mut())?;
     Some(factors.into_iter().map(Factor::Elementary).collect())
 }
 

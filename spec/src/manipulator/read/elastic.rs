@@ -2,8 +2,7 @@
 
 use abbe_core::Component;
 
-use super::keys;
-use super::keys::BEAM_AXES;
+use super::{BEAM_AXES, keys};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};

@@ -2,8 +2,7 @@
 
 use abbe_core::VariableKind;
 
-use super::keys;
-use super::rigid;
+use super::{keys, rigid};
 use crate::degrees::check_angle;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Item, Section};

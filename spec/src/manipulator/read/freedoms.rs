@@ -4,7 +4,7 @@
 //! Checks sources that act on loops: an error of a length acts as a displacement of one end of the
 //! leg.
 
-use super::declarations::Declarations;
+use super::Declarations;
 use crate::diagnostic::{Diagnostic, Span, first};
 use crate::document::Document;
 use crate::expr::Symbol;
@@ -33,8 +33,7 @@ pub(super) fn check_freedoms(tree: Tree<'_>, declarations: &Declarations, docume
         }
     }
     if document.mistakes() == before {
-        let assignment = Assignment::new(tree.loops, moved, declarations.passive.len());
-        for part in assignment.unbalanced() {
+        for part in Assignment::new(tree.loops, moved, declarations.passive.len()).unbalanced() {
             document.mistake(part.mistake(tree.loops, &declarations.passive));
         }
     }

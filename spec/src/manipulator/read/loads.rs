@@ -1,8 +1,6 @@
 //! `[[load]]` and `gravity`: loads on beams and compliances.
 
-use super::effects::find_frame;
-use super::keys;
-use super::keys::{LOAD_AXES, TOOL};
+use super::{LOAD_AXES, TOOL, find_frame, keys};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};

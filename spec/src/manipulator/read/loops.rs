@@ -1,15 +1,11 @@
 //! `[[loop]]`: conditions that close loops of frames.
 
-use super::declarations::Declarations;
-use super::effects::{Named, frame_or_base};
-use super::keys;
-use super::keys::CLOSURES;
 use super::rigid::depends;
+use super::{CLOSURES, Declarations, Named, frame_or_base, keys};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Symbol};
-use crate::manipulator::names::read_title;
-use crate::manipulator::{Closure, Loop};
+use crate::manipulator::{Closure, Loop, read_title};
 
 /// Maximum number of loops. The code that closes them grows with the cube of their equations.
 const MOST_LOOPS: usize = 100;

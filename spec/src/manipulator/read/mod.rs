@@ -26,3 +26,10 @@ mod sources;
 mod spec;
 mod sum_limits;
 mod tables;
+
+use declarations::Declarations;
+use effects::{Named, find_frame, frame_or_base, read_effect, read_parent};
+use keys::{
+    BEAM_AXES, CLASSES, CLOSURES, COVARIANCE, COVARIANCE_OF, INTERPOLATIONS, JOINT_KINDS, LENGTHS, LOAD_AXES,
+    ORIENTATIONS, OUTSIDE, TOOL,
+};

@@ -5,7 +5,7 @@ use std::iter;
 
 use abbe_core::Component;
 
-use super::declarations::Declarations;
+use super::Declarations;
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::expr::{Dimension, Expression, Symbol};

@@ -3,7 +3,7 @@
 //!
 //! Sample configurations: fixed ones, so that checks are deterministic.
 
-use super::declarations::Declarations;
+use super::Declarations;
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Binary, Expression, Function, Kind, Scope, Symbol};
 use crate::manipulator::{Matrix, Variable};

@@ -2,17 +2,13 @@
 
 use abbe_core::{Class, Distribution};
 
-use super::declarations::Declarations;
 use super::deviations::{Chain, read_deviations};
-use super::effects::read_effect;
-use super::keys;
-use super::keys::CLASSES;
+use super::{CLASSES, Declarations, keys, read_effect};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Dimension, Expression};
 use crate::keys::Keys;
-use crate::manipulator::names::read_title;
-use crate::manipulator::{Cause, Deviation, Effect, Magnitude, Source, Uncertain};
+use crate::manipulator::{Cause, Deviation, Effect, Magnitude, Source, Uncertain, read_title};
 
 /// Keys of a source: its own, and those of its effects.
 const KNOWN: [&Keys; 4] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE, &keys::DEVIATION];

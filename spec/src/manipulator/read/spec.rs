@@ -6,32 +6,27 @@ use abbe_core::{LengthUnit, Orientation};
 use sha2::{Digest, Sha256};
 
 use super::covariance::{read_covariance, read_fitted};
-use super::declarations::Declarations;
 use super::deviations::Chain;
-use super::effects::{Named, read_parent};
 use super::frames::{OwnVariable, convention, read_factors};
 use super::freedoms::{check_freedoms, check_sources_in_loops};
-use super::keys;
-use super::keys::{LENGTHS, ORIENTATIONS};
 use super::loads::{check_loaded, read_gravity, read_loads};
 use super::loops::read_loops;
 use super::positive::check_signs;
 use super::rigid::{check_rigid, depends};
 use super::sources::{input_uncertainties, parts_of_balls, read_sources};
 use super::sum_limits::read_sum_limits;
+use super::{Declarations, LENGTHS, Named, ORIENTATIONS, keys, read_parent};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::Symbol;
-use crate::manipulator::names::{check_manipulator_name, read_title};
-use crate::manipulator::{Factor, Frame, Loop, Spec, Tree, Variable};
+use crate::manipulator::{Factor, Frame, Loop, Spec, Tree, Variable, check_manipulator_name, read_title};
 use crate::value::read_name;
 
 impl Spec {
     /// Reads and checks a spec file. All syntax errors are reported at once; without any, all
     /// semantic errors.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
-        let document = Document::read(path.as_ref())?;
-        Self::from_document(document)
+        Self::from_document(Document::read(path.as_ref())?)
     }
 
     /// Reads and checks a spec's text. Files of tables are relative to `folder`; `path` is the name

@@ -2,8 +2,7 @@
 
 use abbe_core::{SumLimit, VariableKind};
 
-use super::declarations::Declarations;
-use super::keys;
+use super::{Declarations, keys};
 use crate::degrees::check_angle_item;
 use crate::diagnostic::Diagnostic;
 use crate::document::Section;

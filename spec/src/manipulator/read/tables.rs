@@ -2,14 +2,12 @@
 
 use std::sync::Arc;
 
-use super::declarations::Declarations;
-use super::keys;
-use super::keys::{INTERPOLATIONS, OUTSIDE};
 use super::points::{Columns, Points};
+use super::{Declarations, INTERPOLATIONS, OUTSIDE, keys};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Extrapolation, Scope, Table, Unit, parse_unit};
-use crate::manipulator::names::check_identifier;
+use crate::manipulator::check_identifier;
 
 /// Maximum number of tables.
 const MOST: usize = 1000;
@@ -131,6 +129,5 @@ struct Axis {
 }
 
 fn unit(item: &Item<'_>, scope: &Scope) -> Option<Unit> {
-    let text = item.located_text()?;
-    parse_unit(&text, scope, &mut item.document.found.borrow_mut())
+    parse_unit(&item.located_text()?, scope, &mut item.document.found.borrow_mut())
 }
