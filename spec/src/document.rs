@@ -144,6 +144,11 @@ impl Document {
         errors.is_empty().then_some(table)
     }
 
+    /// Returns the number of the line of a byte, from 1.
+    pub fn line(&self, at: usize) -> usize {
+        self.text.as_bytes()[..at.min(self.text.len())].iter().filter(|byte| **byte == b'\n').count() + 1
+    }
+
     /// Returns the number of diagnostics found so far.
     pub fn mistakes(&self) -> usize {
         self.found.borrow().len()

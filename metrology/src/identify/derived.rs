@@ -99,6 +99,7 @@ pub(super) fn with_inputs(spec: &Spec, derived: &[Derived]) -> Spec {
         levels: Vec::new(),
         uncertainty: 0.0,
         description: one.description(spec),
+        line: 0,
     };
     Spec { inputs: spec.inputs.iter().cloned().chain(derived.iter().map(input)).collect(), ..spec.clone() }
 }

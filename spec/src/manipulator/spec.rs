@@ -255,6 +255,7 @@ impl Spec {
                 levels: Vec::new(),
                 uncertainty: 0.0,
                 description: format!("{}: factor of this source", source.name),
+                line: 0,
             });
         }
         spec
@@ -274,6 +275,8 @@ pub struct Parameter {
     pub unit: String,
     /// Description.
     pub description: String,
+    /// Line of the spec that declares it.
+    pub line: usize,
 }
 
 /// An input.
@@ -295,6 +298,8 @@ pub struct Input {
     pub uncertainty: f64,
     /// Description.
     pub description: String,
+    /// Line of the spec that declares it; 0 if it is derived.
+    pub line: usize,
 }
 
 /// A joint variable.

@@ -230,8 +230,12 @@ fn indices(writer: &mut Writer, upper: &str, spec: &Spec) {
         let frame = format!("Joint of frame {}", spec.frames[one.frame].name);
         (&one.name, described(&frame, one.kind.either("rad", spec.length.symbol())))
     });
-    let parameters = spec.parameters.iter().map(|one| (&one.name, described(&one.description, &one.unit)));
-    let inputs = spec.inputs.iter().map(|one| (&one.name, described(&one.description, &one.unit)));
+    let of_line = |text: String, line: usize| format!("{text} {}, line {line}.", spec.file);
+    let parameters = spec.parameters.iter();
+    let parameters =
+        parameters.map(|one| (&one.name, of_line(described(&one.description, &one.unit), one.line)));
+    let inputs = spec.inputs.iter();
+    let inputs = inputs.map(|one| (&one.name, of_line(described(&one.description, &one.unit), one.line)));
     let lists: [(&str, Vec<(&String, String)>); 3] =
         [("q", joints.collect()), ("s", parameters.collect()), ("u", inputs.collect())];
     for (array, names) in lists.into_iter().filter(|(_, names)| !names.is_empty()) {

@@ -68,8 +68,7 @@ pub(super) fn chain(
     let joints = robot.joints.iter().map(|joint| &joint.faults);
     let beside = joints.chain(robot.links.iter().map(|link| &link.faults)).flatten().chain(&tree.loose);
     for Diagnostic { message, span, .. } in beside {
-        let start = span.as_ref().map_or(0, |span| span.start);
-        let line = document.text[..start].matches('\n').count() + 1;
+        let line = document.line(span.as_ref().map_or(0, |span| span.start));
         notes.note(&format!("line {line}, beside the chain and left out: {message}"));
     }
     let moves = |step: &Step<'_>| step.joint.kind != JointKind::Fixed;

@@ -36,7 +36,7 @@ pub(super) fn robot(document: &Document) -> Option<Robot> {
     if let Some(mistake) = not_urdf(root) {
         return document.fail(mistake);
     }
-    let line = |node: Node<'_, '_>| text[..node.range().start].matches('\n').count() + 1;
+    let line = |node: Node<'_, '_>| document.line(node.range().start);
     for node in root.children().filter(is_macro) {
         let name = node.tag_name().name();
         notes.push(format!("line {}: the macro `{name}` was not expanded, and is ignored", line(node)));

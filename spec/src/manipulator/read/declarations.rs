@@ -41,7 +41,8 @@ impl Declarations {
             self.set_range(&item.key, [value; 2]);
             let description = table.map_or_else(String::new, |t| t.optional_text("description"));
             let unit = dimension.unit(self.scope.length.symbol());
-            self.parameters.push(Parameter { name: item.key, value, dimension, unit, description });
+            let line = root.document.line(item.key_span.start);
+            self.parameters.push(Parameter { name: item.key, value, dimension, unit, description, line });
         }
     }
 
@@ -78,8 +79,9 @@ impl Declarations {
             self.set_range(&item.key, range);
             let description = table.map_or_else(String::new, |t| t.optional_text("description"));
             let unit = dimension.unit(self.scope.length.symbol());
-            let name = item.key;
-            self.inputs.push(Input { name, value, dimension, unit, range, levels, uncertainty, description });
+            let (line, name) = (root.document.line(item.key_span.start), item.key);
+            let input = Input { name, value, dimension, unit, range, levels, uncertainty, description, line };
+            self.inputs.push(input);
         }
     }
 
