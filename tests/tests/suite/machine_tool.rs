@@ -119,14 +119,14 @@ fn tool_point(source: &str, [x, y]: [f64; 2]) -> [f64; 3] {
          [[source]]\nname = \"table\"\nclass = \"repeatable\"\nframe = \"X\"\n{source}\n"
     );
     let mill = Interpreter::new(Spec::parse("mill.toml", &text).unwrap());
-    *mill.real_pose(&[x, y], &[], &[]).unwrap().position()
+    mill.real_pose(&[x, y], &[], &[]).unwrap().position()
 }
 
 /// An axis that carries the workpiece: what a laser between table and spindle reads is written as
 /// it is, what the bed sees of the table with the opposite sign, where it turns.
 #[test]
 fn errors_of_a_table_have_the_signs_of_the_chapter() {
-    for [x, y] in [[0.0, 0.0], [300.0, 100.0], [580.0, 390.0]] {
+    for [x, y] in [[0.0_f64, 0.0], [300.0, 100.0], [580.0, 390.0]] {
         // Seen from the bed, the table is 20 um too far and turned by 30 urad about its origin.
         let (far, turn) = (0.02 * x / 600.0, 3e-5 * x / 600.0);
         // A point of the bed in the frame of the table: R(-turn) (p - origin).
