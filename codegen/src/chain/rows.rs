@@ -100,8 +100,7 @@ impl Rows {
         let pitch = graph.add(first, second);
         let (first, second) = (graph.mul(roll[0], z), graph.mul(roll[1], x));
         let roll = graph.sub(first, second);
-        let part = graph.mul(first_axis[1], pitch);
-        [graph.sub(y, part), roll, pitch]
+        [graph.sub_product(y, first_axis[1], pitch), roll, pitch]
     }
 
     /// Returns a column from the velocity of the tool point and the rotation ω.

@@ -80,8 +80,7 @@ pub(super) fn apply_with(
             let direction = graph.turn(&frame.axes, local);
             match motion {
                 Motion::Translation => {
-                    let offset = graph.scale(amount, direction);
-                    let position = graph.add_vectors(frame.position, offset);
+                    let position = graph.add_scaled(frame.position, amount, direction);
                     (Frame { position, ..frame }, Step::Translation { direction, amount })
                 }
                 Motion::Rotation => {

@@ -58,6 +58,12 @@ impl Graph {
         a.map(|component| self.mul(k, component))
     }
 
+    /// Returns `sum + k a`.
+    pub(crate) fn add_scaled(&mut self, sum: Vector, k: Node, a: Vector) -> Vector {
+        let scaled = self.scale(k, a);
+        self.add_vectors(sum, scaled)
+    }
+
     /// Returns `-a`.
     pub fn neg_vector(&mut self, a: Vector) -> Vector {
         a.map(|component| self.neg(component))
@@ -89,6 +95,12 @@ impl Graph {
             let (left, right) = (self.mul(a[j], b[k]), self.mul(a[k], b[j]));
             self.sub(left, right)
         })
+    }
+
+    /// Returns `sum + a × b`.
+    pub(crate) fn add_cross(&mut self, sum: Vector, a: Vector, b: Vector) -> Vector {
+        let product = self.cross(a, b);
+        self.add_vectors(sum, product)
     }
 
     /// Returns `R v`, where the columns of `R` are `axes`.
@@ -133,7 +145,6 @@ impl Graph {
 
     /// Returns a motion translated along its own axis 0, 1 or 2.
     pub fn moved(&mut self, frame: &Frame, axis: usize, distance: Node) -> Frame {
-        let offset = self.scale(distance, frame.axes[axis]);
-        Frame { axes: frame.axes, position: self.add_vectors(frame.position, offset) }
+        Frame { axes: frame.axes, position: self.add_scaled(frame.position, distance, frame.axes[axis]) }
     }
 }
