@@ -84,9 +84,7 @@ impl Rows {
     }
 
     pub(super) fn orientation_rows(&self, graph: &mut Graph, omega: Vector) -> [Node; 3] {
-        let Self::Euler(Euler { axis, roll, pitch, first_axis, .. }) = self else {
-            return omega;
-        };
+        let Self::Euler(Euler { axis, roll, pitch, first_axis, .. }) = self else { return omega };
         let omega = renamed(*axis, omega);
         // A rotation about R_T x̂ changes the pitch only.
         let (zero, minus) = (graph.zero(), graph.neg_vector(omega));

@@ -131,9 +131,7 @@ fn is_constant_rotation(factor: &Factor) -> bool {
 }
 
 fn is_quarter_turn(graph: &mut Graph, factor: &Factor) -> bool {
-    let Factor::Elementary(Elementary { amount, .. }) = factor else {
-        return false;
-    };
+    let Factor::Elementary(Elementary { amount, .. }) = factor else { return false };
     let angle = graph.lower(amount);
     let sine = graph.sin(angle);
     graph.value(sine).is_some_and(|sine| sine.fract() == 0.0)

@@ -419,9 +419,7 @@ pub(crate) fn parse_transform(
 
 fn factor(parser: &mut Parser<'_>) -> Parsed<Elementary> {
     let expected = "Tx, Ty, Tz, Rx, Ry or Rz";
-    let Token::Word(name) = parser.peek() else {
-        return Err(parser.unexpected(expected));
-    };
+    let Token::Word(name) = parser.peek() else { return Err(parser.unexpected(expected)) };
     let Some(index) = NAMES.iter().position(|known| *known == name) else {
         return Err(Diagnostic::new(parser.here(), format!("unknown motion `{name}`"))
             .label(format!("expected {expected}"))

@@ -84,9 +84,7 @@ impl<'d, 'm> RoutineBuilder<'d, 'm> {
     /// Computes the coefficients of rows 4–6 and the margin from the [last axis](Self::last_axis)
     /// of the tool.
     pub(super) fn rows(&mut self, axis: impl FnOnce(&mut Body) -> Vector) -> RowsArray {
-        let Some(last) = self.loops.orientation.last_axis() else {
-            return RowsArray::ROTATION_VECTOR;
-        };
+        let Some(last) = self.loops.orientation.last_axis() else { return RowsArray::ROTATION_VECTOR };
         let euler = self.zeros("euler", &[Count::Exactly(Rows::PARTS)]);
         let mut body = Body::default();
         let axis = axis(&mut body);

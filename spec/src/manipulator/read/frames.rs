@@ -142,9 +142,7 @@ fn denavit_hartenberg(item: &Item<'_>, scope: &Scope, convention: DhConvention) 
 fn origin(item: &Item<'_>, scope: &Scope) -> Option<Vec<Factor>> {
     let section = item.table("`origin`", &[&keys::ORIGIN])?;
     let three = |key: &str, motion: Motion| -> Option<Vec<Factor>> {
-        let Some(item) = section.get(key) else {
-            return Some(Vec::new());
-        };
+        let Some(item) = section.get(key) else { return Some(Vec::new()) };
         let entries: [Item<'_>; 3] = item.entries("three numbers")?;
         let what = format!("an entry of `{key}`");
         let expected =
@@ -182,9 +180,7 @@ fn about_axis(
     if let Some(item) = item {
         let entries: [Item<'_>; 3] = item.entries("three numbers")?;
         let read = entries.map(|entry| entry.amount(scope, Dimension::NONE, "an entry of `axis`"));
-        let [Some(x), Some(y), Some(z)] = read else {
-            return None;
-        };
+        let [Some(x), Some(y), Some(z)] = read else { return None };
         axis = [x, y, z];
         let length = (x * x + y * y + z * z).sqrt();
         if (length - 1.0).abs() > rigid::TOLERANCE {
