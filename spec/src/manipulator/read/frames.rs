@@ -90,10 +90,9 @@ pub(super) fn motion_dimension(motion: Motion) -> Dimension {
 fn read_matrix(item: &Item<'_>, scope: &Scope) -> Option<Matrix> {
     let rows: [Item<'_>; 4] = item.entries("four rows of four entries")?;
     let mut read = Vec::new();
-    let mut complete = true;
     for (i, row) in rows.iter().enumerate() {
         let Some(entries) = row.entries::<4>("four rows of four entries") else {
-            complete = false;
+            read.push(None);
             continue;
         };
         for (j, entry) in entries.iter().enumerate() {
@@ -103,15 +102,10 @@ fn read_matrix(item: &Item<'_>, scope: &Scope) -> Option<Matrix> {
                 _ => (Dimension::NONE, "an entry of the rotation"),
             };
             let expected = Entry { dimension: Some(dimension), what, names: Allowed::Geometry };
-            match entry.expression(scope, expected) {
-                Some(expression) => read.push(expression),
-                None => complete = false,
-            }
+            read.push(entry.expression(scope, expected));
         }
     }
-    if !complete {
-        return None;
-    }
+    let mut read = read.into_iter().collect::<Option<Vec<Expression>>>()?;
     for (j, entry) in read.split_off(12).iter().enumerate() {
         let expected = if j == 3 { 1.0 } else { 0.0 };
         if entry.constant() != Some(expected) {
