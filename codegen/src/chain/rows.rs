@@ -65,14 +65,9 @@ impl Rows {
 
     /// Rebuilds the map to Euler angles from its parts, without the margin.
     pub(crate) fn from_parts(axis: usize, parts: &[Node]) -> Self {
+        let (roll, pitch) = ([parts[0], parts[1]], [parts[2], parts[3]]);
         let first_axis = [parts[4], parts[5], parts[6]];
-        Self::Euler(Euler {
-            axis,
-            margin: None,
-            roll: [parts[0], parts[1]],
-            pitch: [parts[2], parts[3]],
-            first_axis,
-        })
+        Self::Euler(Euler { axis, margin: None, roll, pitch, first_axis })
     }
 
     /// Returns `cos ρ` if the rows are Euler angles.

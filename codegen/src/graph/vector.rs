@@ -113,10 +113,8 @@ impl Graph {
     /// Returns the product `a b` of two motions.
     pub fn then(&mut self, a: &Frame, b: &Frame) -> Frame {
         let offset = self.turn(&a.axes, b.position);
-        Frame {
-            axes: b.axes.map(|axis| self.turn(&a.axes, axis)),
-            position: self.add_vectors(a.position, offset),
-        }
+        let axes = b.axes.map(|axis| self.turn(&a.axes, axis));
+        Frame { axes, position: self.add_vectors(a.position, offset) }
     }
 
     /// Returns the inverse motion: `Rᵀ`, `−Rᵀ p`.

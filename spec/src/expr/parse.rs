@@ -86,14 +86,8 @@ pub(super) type Parsed<T> = Result<T, Diagnostic>;
 impl<'p> Parser<'p> {
     fn new(text: &'p LocatedText<'p>, scope: &'p Scope, found: &'p mut Vec<Diagnostic>) -> Parsed<Self> {
         let tokens = tokens(text)?;
-        Ok(Self {
-            tokens,
-            at: 0,
-            depth: 0,
-            text: &text.text,
-            place: &text.place,
-            builder: Builder::new(scope, found),
-        })
+        let builder = Builder::new(scope, found);
+        Ok(Self { tokens, at: 0, depth: 0, text: &text.text, place: &text.place, builder })
     }
 
     /// Parses a sum that is a whole entry. The parser can then parse another one.

@@ -207,10 +207,8 @@ impl Arm<'_> {
                 let q1 = angle_between(g, first.along, reached, away, self.free[0], self.probes.size)
                     .normalized(g);
                 let q1 = Root { angle: q1, exists: q2.exists };
-                found.push(Partial {
-                    joints: vec![Joint::Turn(q1), Joint::Turn(q2), Joint::Slide(travel)],
-                    exists: vec![],
-                });
+                let joints = vec![Joint::Turn(q1), Joint::Turn(q2), Joint::Slide(travel)];
+                found.push(Partial { joints, exists: vec![] });
             }
             return Some(found);
         }

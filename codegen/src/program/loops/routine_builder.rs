@@ -58,11 +58,8 @@ impl<'d, 'm> RoutineBuilder<'d, 'm> {
     }
 
     pub(super) fn backwards(&mut self, body: Body) {
-        self.stages.push(body.stage(Some(Repeated {
-            count: Count::Frames,
-            backwards: true,
-            while_positive: None,
-        })));
+        let repeated = Repeated { count: Count::Frames, backwards: true, while_positive: None };
+        self.stages.push(body.stage(Some(repeated)));
     }
 
     /// Returns the axis of the tool about which the last of the Euler angles turns.
