@@ -87,7 +87,7 @@ impl<'p> Parser<'p> {
     fn new(text: &'p LocatedText<'p>, scope: &'p Scope, found: &'p mut Vec<Diagnostic>) -> Parsed<Self> {
         let tokens = tokens(text)?;
         let builder = Builder::new(scope, found);
-        Ok(Self { tokens, at: 0, depth: 0, text: &text.text, place: &text.place, builder })
+        Ok(Self { tokens, at: 0, depth: 0, text: text.text, place: &text.place, builder })
     }
 
     /// Parses a sum that is a whole entry. The parser can then parse another one.
