@@ -198,12 +198,8 @@ impl<'r> Packer<'r> {
     fn block(&mut self, block: &Block, arrays: &mut Arrays<'_>) {
         let locals: Vec<Slot> =
             block.reads.iter().flat_map(|place| self.row(arrays, place.array, place.row, 0)).collect();
-        let (instructions, outputs) = self.program(&block.program, arrays, &locals);
-        self.parts.push(Part::Program {
-            turns: vec![Turn::default()],
-            body: instructions,
-            while_positive: None,
-        });
+        let (body, outputs) = self.program(&block.program, arrays, &locals);
+        self.parts.push(Part::Program { turns: vec![Turn::default()], body, while_positive: None });
         let mut outputs = &outputs[..];
         for place in &block.writes {
             let count = arrays.routine.arrays[place.array].len(&self.routines.description);

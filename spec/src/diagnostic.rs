@@ -47,13 +47,8 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// Creates a diagnostic at `span`.
     pub fn new(span: Span, message: impl Into<String>) -> Self {
-        Self {
-            message: message.into(),
-            span: Some(span),
-            label: String::new(),
-            context: Vec::new(),
-            help: None,
-        }
+        let message = message.into();
+        Self { message, span: Some(span), label: String::new(), context: Vec::new(), help: None }
     }
 
     /// Creates a diagnostic of the file as a whole.

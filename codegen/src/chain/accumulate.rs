@@ -54,10 +54,8 @@ impl Links {
 
     /// Transforms a pose from the axes behind a link to those before it.
     pub(super) fn before(&self, graph: &mut Graph, link: usize, pose: Frame) -> Frame {
-        Frame {
-            axes: pose.axes.map(|axis| self.direction(graph, link, axis)),
-            position: self.point(graph, link, pose.position),
-        }
+        let axes = pose.axes.map(|axis| self.direction(graph, link, axis));
+        Frame { axes, position: self.point(graph, link, pose.position) }
     }
 
     /// Transforms a direction from the axes behind a link to those before it.

@@ -26,8 +26,7 @@ pub(super) fn product(graph: &mut Graph, columns: &[Six], errors: &[Six]) -> Six
     let mut sum = [graph.zero(); 6];
     for (column, error) in columns.iter().zip(errors.as_flattened()) {
         for (sum, entry) in sum.iter_mut().zip(column) {
-            let part = graph.mul(*error, *entry);
-            *sum = graph.add(*sum, part);
+            *sum = graph.add_product(*sum, *error, *entry);
         }
     }
     sum

@@ -76,8 +76,7 @@ impl CompensationResidual {
         // ω = ½ Σ a × a′ over the axes of the tool, and ω′ = ½ Σ a × a″.
         let mut turn = [zero; 3];
         for axis in 1..=3 {
-            let part = g.cross(vector(&nodes, axis), vector(&curves, axis));
-            turn = g.add_vectors(turn, part);
+            turn = g.add_cross(turn, vector(&nodes, axis), vector(&curves, axis));
         }
         let quarter = g.constant(0.25);
         let turn = g.scale(quarter, turn);
@@ -127,8 +126,7 @@ fn without_kinks(graph: &mut Graph, error: Node, step: &[Node]) -> Node {
         _ => None,
     })[0];
     let (t, change) = (graph.symbol(SHARE), graph.sub(after, before));
-    let change = graph.mul(t, change);
-    graph.add(before, change)
+    graph.add_product(before, t, change)
 }
 
 /// Returns the joint that rotates or translates the whole machine: no moving factor precedes it,

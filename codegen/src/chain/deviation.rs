@@ -108,8 +108,7 @@ impl Body {
 
     fn go_through_motion(&mut self, graph: &mut Graph, motion: &Local) {
         if let Local::Shift(shift) = motion {
-            let swing = graph.cross(self.rotation, *shift);
-            self.velocity = graph.add_vectors(self.velocity, swing);
+            self.velocity = graph.add_cross(self.velocity, self.rotation, *shift);
         }
         self.velocity = motion.direction_behind(graph, self.velocity);
         self.rotation = motion.direction_behind(graph, self.rotation);

@@ -160,8 +160,7 @@ impl<'a> Loads<'a> {
             let (shift, turn) = vectors(product(graph, &compliance, wrench));
             let mut rest = [graph.zero(); 3];
             rest[beam.axis] = back;
-            let swing = graph.cross(turn, rest);
-            let shift = graph.add_vectors(shift, swing);
+            let shift = graph.add_cross(shift, turn, rest);
             sum = add(graph, sum, six(shift, turn));
         }
         if let Some(weight) = self.weights.iter().find(|weight| std::ptr::eq(weight.effect, element.effect)) {
@@ -198,8 +197,7 @@ impl<'a> Loads<'a> {
             }
         }
         for (reaction, slope) in self.reactions.iter().zip(length_slopes(graph, self.spec, symbol)) {
-            let power = graph.mul(reaction.forces[0], slope);
-            sum = graph.sub(sum, power);
+            sum = graph.sub_product(sum, reaction.forces[0], slope);
         }
         sum
     }
@@ -243,8 +241,7 @@ impl<'a> Loads<'a> {
             let point = graph.add_vectors(frame.position, offset);
             force = graph.add_vectors(force, load.force);
             let lever = graph.sub_vectors(point, about);
-            let part = graph.cross(lever, load.force);
-            moment = graph.add_vectors(moment, part);
+            moment = graph.add_cross(moment, lever, load.force);
             moment = graph.add_vectors(moment, load.moment);
         }
         six(local(graph, axes, force), local(graph, axes, moment))

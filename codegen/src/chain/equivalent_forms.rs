@@ -183,8 +183,7 @@ impl<'l> EquivalentForms<'l> {
     fn velocity(&self, graph: &mut Graph, i: usize, [shift, turn]: [Vector; 2], known: Vector) {
         let crossed = |graph: &mut Graph, axes: &[Vector; 3], lever: Vector| {
             let [shift, turn] = [shift, turn].map(|vector| graph.turn(axes, vector));
-            let swing = graph.cross(turn, lever);
-            graph.add_vectors(shift, swing)
+            graph.add_cross(shift, turn, lever)
         };
         let lever = self.levers[i][i].expect("every frame's own is known");
         let axes = graph.identity().axes;
@@ -288,8 +287,7 @@ pub(super) fn equate_at_origin(graph: &mut Graph, links: &Links, errors: &[Six])
             lever = motion.point(graph, lever);
         }
     }
-    let swing = graph.cross(at_tool.turn, lever);
-    let there = graph.add_vectors(at_origin, swing);
+    let there = graph.add_cross(at_origin, at_tool.turn, lever);
     graph.equate_vectors(at_tool.shift, there);
     graph.propose_together([&origins[..], &there].concat());
 }

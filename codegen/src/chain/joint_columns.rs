@@ -72,10 +72,8 @@ pub(super) fn at_origin(graph: &mut Graph, links: &Links, errors: &[Six], frame:
             }
         }
     }
-    Displacement {
-        shift: graph.add_vectors(inner.shift, outer.shift),
-        turn: graph.add_vectors(inner.turn, outer.turn),
-    }
+    let shift = graph.add_vectors(inner.shift, outer.shift);
+    Displacement { shift, turn: graph.add_vectors(inner.turn, outer.turn) }
 }
 
 /// Returns the velocity of the point at (or, with a negative sign, before) a given offset.

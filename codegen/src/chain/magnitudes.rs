@@ -30,12 +30,8 @@ pub struct Magnitude {
 impl Magnitude {
     /// Returns the length of a vector.
     pub(super) fn length(graph: &mut Graph, vector: Vector) -> Self {
-        Self {
-            node: graph.dot(vector, vector),
-            squared: true,
-            parts: vector.to_vec(),
-            largest_of: Vec::new(),
-        }
+        let node = graph.dot(vector, vector);
+        Self { node, squared: true, parts: vector.to_vec(), largest_of: Vec::new() }
     }
 
     /// Adds a radius, which is not negative.
@@ -244,12 +240,8 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], places: &[usize], most_
     let (vectors, places): (Vec<&Vec<Node>>, Vec<usize>) =
         vectors.iter().zip(places).filter(|(vector, _)| vector.iter().any(|entry| *entry != zero)).unzip();
     if let [vector] = vectors[..] {
-        return Magnitude {
-            node: graph.products(vector, vector),
-            squared: true,
-            parts: vector.clone(),
-            largest_of: Vec::new(),
-        };
+        let node = graph.products(vector, vector);
+        return Magnitude { node, squared: true, parts: vector.clone(), largest_of: Vec::new() };
     }
     if vectors.len() <= most_signed && vectors.iter().all(|vector| vector.len() > 1) {
         return largest_pattern(graph, &vectors);

@@ -246,8 +246,7 @@ impl<'a> RealChain<'a> {
                 }
             }
             for (sum, error) in sums.iter_mut().zip(of_source) {
-                let error = graph.mul(*magnitude, error);
-                *sum = graph.add(*sum, error);
+                *sum = graph.add_product(*sum, *magnitude, error);
             }
         }
         sums

@@ -65,14 +65,9 @@ impl Rows {
 
     /// Rebuilds the map to Euler angles from its parts, without the margin.
     pub(crate) fn from_parts(axis: usize, parts: &[Node]) -> Self {
+        let (roll, pitch) = ([parts[0], parts[1]], [parts[2], parts[3]]);
         let first_axis = [parts[4], parts[5], parts[6]];
-        Self::Euler(Euler {
-            axis,
-            margin: None,
-            roll: [parts[0], parts[1]],
-            pitch: [parts[2], parts[3]],
-            first_axis,
-        })
+        Self::Euler(Euler { axis, margin: None, roll, pitch, first_axis })
     }
 
     /// Returns `cos ρ` if the rows are Euler angles.
@@ -84,9 +79,7 @@ impl Rows {
     }
 
     pub(super) fn orientation_rows(&self, graph: &mut Graph, omega: Vector) -> [Node; 3] {
-        let Self::Euler(Euler { axis, roll, pitch, first_axis, .. }) = self else {
-            return omega;
-        };
+        let Self::Euler(Euler { axis, roll, pitch, first_axis, .. }) = self else { return omega };
         let omega = renamed(*axis, omega);
         // A rotation about R_T x̂ changes the pitch only.
         let (zero, minus) = (graph.zero(), graph.neg_vector(omega));
@@ -100,8 +93,7 @@ impl Rows {
         let pitch = graph.add(first, second);
         let (first, second) = (graph.mul(roll[0], z), graph.mul(roll[1], x));
         let roll = graph.sub(first, second);
-        let part = graph.mul(first_axis[1], pitch);
-        [graph.sub(y, part), roll, pitch]
+        [graph.sub_product(y, first_axis[1], pitch), roll, pitch]
     }
 
     /// Returns a column from the velocity of the tool point and the rotation ω.

@@ -25,8 +25,7 @@ pub(super) fn twist(graph: &mut Graph, steps: &Steps, symbol: Symbol, tool: Vect
         match step {
             Step::Translation { direction, amount } => {
                 let slope = graph.diff(*amount, symbol);
-                let part = graph.scale(slope, *direction);
-                velocity = graph.add_vectors(velocity, part);
+                velocity = graph.add_scaled(velocity, slope, *direction);
             }
             Step::Rotation { axis, at, amount } => {
                 let slope = graph.diff(*amount, symbol);
@@ -84,8 +83,7 @@ pub(crate) fn swing(graph: &mut Graph, velocity: Vector, omega: Vector, tool: Ve
         return velocity;
     }
     let lever = graph.sub_vectors(tool, at);
-    let part = graph.cross(omega, lever);
-    graph.add_vectors(velocity, part)
+    graph.add_cross(velocity, omega, lever)
 }
 
 /// Returns `vee(Ṙ Rᵀ)` from columns: entry (i, j) of the product is the sum over columns c of `ċ_i

@@ -80,8 +80,7 @@ pub(super) fn apply_with(
             let direction = graph.turn(&frame.axes, local);
             match motion {
                 Motion::Translation => {
-                    let offset = graph.scale(amount, direction);
-                    let position = graph.add_vectors(frame.position, offset);
+                    let position = graph.add_scaled(frame.position, amount, direction);
                     (Frame { position, ..frame }, Step::Translation { direction, amount })
                 }
                 Motion::Rotation => {
@@ -132,9 +131,7 @@ fn is_constant_rotation(factor: &Factor) -> bool {
 }
 
 fn is_quarter_turn(graph: &mut Graph, factor: &Factor) -> bool {
-    let Factor::Elementary(Elementary { amount, .. }) = factor else {
-        return false;
-    };
+    let Factor::Elementary(Elementary { amount, .. }) = factor else { return false };
     let angle = graph.lower(amount);
     let sine = graph.sin(angle);
     graph.value(sine).is_some_and(|sine| sine.fract() == 0.0)

@@ -152,6 +152,18 @@ impl Graph {
         self.with_signs_outside(a, b, Self::mul).unwrap_or_else(|| self.intern(Op::Mul(a.min(b), a.max(b))))
     }
 
+    /// Returns `sum + a · b`.
+    pub(crate) fn add_product(&mut self, sum: Node, a: Node, b: Node) -> Node {
+        let product = self.mul(a, b);
+        self.add(sum, product)
+    }
+
+    /// Returns `difference - a · b`.
+    pub(crate) fn sub_product(&mut self, difference: Node, a: Node, b: Node) -> Node {
+        let product = self.mul(a, b);
+        self.sub(difference, product)
+    }
+
     /// Returns `a / b`. `0/b` and `a/1` simplify, signs move outwards. A division by a constant 0
     /// is kept, because it has no value.
     ///

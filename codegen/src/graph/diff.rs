@@ -94,8 +94,7 @@ impl Graph {
             }
             // (a/b)' = (a' - (a/b) b') / b
             Op::Div(a, b) => {
-                let part = self.mul(node, of(b));
-                let above = self.sub(of(a), part);
+                let above = self.sub_product(of(a), node, of(b));
                 self.div(above, b)
             }
             // (aⁿ)' = n aⁿ⁻¹ a'; exponents are constants
@@ -131,8 +130,7 @@ impl Graph {
     fn derivative_of_smaller(&mut self, [a, b]: [Node; 2], x: Node, y: Node) -> Node {
         let (sum, difference, distance) = (self.add(x, y), self.sub(x, y), self.sub(a, b));
         let side = self.call(Function::Side, distance);
-        let turned = self.mul(side, difference);
-        let twice = self.sub(sum, turned);
+        let twice = self.sub_product(sum, side, difference);
         let half = self.constant(0.5);
         self.mul(half, twice)
     }
@@ -149,22 +147,17 @@ impl Graph {
                 self.neg(sine)
             }
             // tan' = 1 + tan²
-            Function::Tan => {
-                let square = self.mul(value, value);
-                self.add(one, square)
-            }
+            Function::Tan => self.add_product(one, value, value),
             // asin' = 1/√(1 - a²), acos' = -asin'
             Function::Asin | Function::Acos => {
-                let square = self.mul(a, a);
-                let difference = self.sub(one, square);
+                let difference = self.sub_product(one, a, a);
                 let root = self.sqrt(difference);
                 let slope = self.div(one, root);
                 if function == Function::Asin { slope } else { self.neg(slope) }
             }
             // atan' = 1/(1 + a²)
             Function::Atan => {
-                let square = self.mul(a, a);
-                let below = self.add(one, square);
+                let below = self.add_product(one, a, a);
                 self.div(one, below)
             }
             // √' = 1/(2√)

@@ -58,6 +58,12 @@ impl Graph {
         a.map(|component| self.mul(k, component))
     }
 
+    /// Returns `sum + k a`.
+    pub(crate) fn add_scaled(&mut self, sum: Vector, k: Node, a: Vector) -> Vector {
+        let scaled = self.scale(k, a);
+        self.add_vectors(sum, scaled)
+    }
+
     /// Returns `-a`.
     pub fn neg_vector(&mut self, a: Vector) -> Vector {
         a.map(|component| self.neg(component))
@@ -91,6 +97,12 @@ impl Graph {
         })
     }
 
+    /// Returns `sum + a × b`.
+    pub(crate) fn add_cross(&mut self, sum: Vector, a: Vector, b: Vector) -> Vector {
+        let product = self.cross(a, b);
+        self.add_vectors(sum, product)
+    }
+
     /// Returns `R v`, where the columns of `R` are `axes`.
     pub fn turn(&mut self, axes: &[Vector; 3], v: Vector) -> Vector {
         let [x, y, z] = [0, 1, 2].map(|i| self.scale(v[i], axes[i]));
@@ -101,10 +113,8 @@ impl Graph {
     /// Returns the product `a b` of two motions.
     pub fn then(&mut self, a: &Frame, b: &Frame) -> Frame {
         let offset = self.turn(&a.axes, b.position);
-        Frame {
-            axes: b.axes.map(|axis| self.turn(&a.axes, axis)),
-            position: self.add_vectors(a.position, offset),
-        }
+        let axes = b.axes.map(|axis| self.turn(&a.axes, axis));
+        Frame { axes, position: self.add_vectors(a.position, offset) }
     }
 
     /// Returns the inverse motion: `Rᵀ`, `−Rᵀ p`.
@@ -133,7 +143,6 @@ impl Graph {
 
     /// Returns a motion translated along its own axis 0, 1 or 2.
     pub fn moved(&mut self, frame: &Frame, axis: usize, distance: Node) -> Frame {
-        let offset = self.scale(distance, frame.axes[axis]);
-        Frame { axes: frame.axes, position: self.add_vectors(frame.position, offset) }
+        Frame { axes: frame.axes, position: self.add_scaled(frame.position, distance, frame.axes[axis]) }
     }
 }

@@ -12,13 +12,8 @@ pub(super) fn body(
     names: &mut Names<'_>,
     syntax: &dyn Syntax,
 ) -> (Vec<Statement>, Vec<Value>) {
-    let mut writer = Writer {
-        names,
-        syntax,
-        numbers: vec![],
-        registers: vec![None; program.registers],
-        statements: vec![],
-    };
+    let registers = vec![None; program.registers];
+    let mut writer = Writer { names, syntax, numbers: vec![], registers, statements: vec![] };
     for (value, name) in &program.numbers {
         let named = writer.bind(Some(name), syntax.number(*value).text);
         writer.numbers.push((*value, named));

@@ -35,6 +35,8 @@ pub(super) trait Printer {
     const BRANCH: [&'static str; 3];
     /// The end of a loop.
     const LOOP_END: &'static str = "}";
+    /// `false` if compilers skip a loop from a number to itself.
+    const LOOPS_ONCE: bool = true;
     /// `false` if comparisons with NaN are right by `>` and `>=` only.
     const HAS_LESS: bool = true;
     /// The statement that ends a loop before its time.
@@ -272,13 +274,17 @@ pub(super) trait Printer {
         is_descending: bool,
         body: impl FnOnce(&mut Self),
     ) {
+        if let [Some(first), Some(behind)] = range.each_ref().map(Index::number)
+            && behind == first + 1
+            && !Self::LOOPS_ONCE
+        {
+            self.assign(counter, &first.to_string(), None);
+            return body(self);
+        }
         let head = self.loop_head(counter, range, is_descending);
         self.writer().begin(&head);
         body(self);
-        self.writer().end();
-        if !Self::LOOP_END.is_empty() {
-            self.writer().lines(Self::LOOP_END);
-        }
+        self.writer().close(Self::LOOP_END);
     }
 
     fn statements(&mut self, list: &[Statement]) {

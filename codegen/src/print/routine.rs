@@ -96,8 +96,7 @@ impl<L: Printer> Walker<'_, L> {
 
     /// Returns `true` if zeros need not be assigned to an array.
     fn has_zeros(&self, array: usize) -> bool {
-        let is_result = self.flat.routine.arrays[array].role == Role::Result;
-        is_result
+        self.flat.routine.arrays[array].role == Role::Result
             && match L::RESULTS {
                 Results::Created => true,
                 Results::Given => !self.flat.begins_whole(array),

@@ -162,8 +162,7 @@ impl Writer<'_> {
             Stage::Sums { sums, terms, entries } => {
                 let fresh = self.begin([*entries].into_iter());
                 self.declare(fresh, statements);
-                let (sums, terms, entries) = (*sums, *terms, *entries);
-                statements.push(Statement::Sums { sums, terms, entries });
+                statements.push(Statement::Sums { sums: *sums, terms: *terms, entries: *entries });
             }
             Stage::Copy { from, to } => {
                 let fresh = self.begin([*to].into_iter()).into_iter();

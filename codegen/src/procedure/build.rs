@@ -193,11 +193,8 @@ impl Body<'_> {
         result: Array,
     ) {
         let arguments = arguments.map(|array| array.name).to_vec();
-        self.statements.push(Statement::Call {
-            procedure,
-            arguments,
-            result: Variable { name: result.name, kind: Kind::Array(result.len) },
-        });
+        let result = Variable { name: result.name, kind: Kind::Array(result.len) };
+        self.statements.push(Statement::Call { procedure, arguments, result });
     }
 
     /// Calls a procedure that returns a number.

@@ -67,10 +67,6 @@ pub(super) fn description(
 }
 
 fn variable(variable: &abbe_spec::Variable) -> Variable {
-    Variable {
-        name: variable.name.as_str().into(),
-        kind: variable.kind,
-        limits: variable.limits,
-        home: variable.home,
-    }
+    let abbe_spec::Variable { name, kind, limits, home, .. } = variable;
+    Variable { name: name.as_str().into(), kind: *kind, limits: *limits, home: *home }
 }

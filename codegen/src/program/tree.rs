@@ -71,11 +71,8 @@ impl<'d> LoopRoutineBuilder<'d> {
 
     fn block(&mut self, reads: &[usize], writes: &[usize], program: Program, while_positive: Option<usize>) {
         let rows = |arrays: &[usize]| arrays.iter().copied().map(ArrayRows::all).collect();
-        let repeated = while_positive.map(|_| Repeated {
-            count: Count::Exactly(STEPS),
-            backwards: false,
-            while_positive,
-        });
+        let count = Count::Exactly(STEPS);
+        let repeated = while_positive.map(|_| Repeated { count, backwards: false, while_positive });
         let (reads, writes) = (rows(reads), rows(writes));
         self.stages.push(Stage::Block(Block { reads, program, writes, repeated }));
     }

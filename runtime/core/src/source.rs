@@ -168,13 +168,8 @@ impl Source {
         at: &'static str,
         reference: &'static str,
     ) -> Self {
-        Self {
-            name: Text::Constant(name),
-            class,
-            degrees_of_freedom,
-            at: Text::Constant(at),
-            reference: Text::Constant(reference),
-        }
+        let (at, reference) = (Text::Constant(at), Text::Constant(reference));
+        Self { name: Text::Constant(name), class, degrees_of_freedom, at, reference }
     }
 }
 

@@ -86,14 +86,8 @@ pub(super) type Parsed<T> = Result<T, Diagnostic>;
 impl<'p> Parser<'p> {
     fn new(text: &'p LocatedText<'p>, scope: &'p Scope, found: &'p mut Vec<Diagnostic>) -> Parsed<Self> {
         let tokens = tokens(text)?;
-        Ok(Self {
-            tokens,
-            at: 0,
-            depth: 0,
-            text: &text.text,
-            place: &text.place,
-            builder: Builder::new(scope, found),
-        })
+        let builder = Builder::new(scope, found);
+        Ok(Self { tokens, at: 0, depth: 0, text: text.text, place: &text.place, builder })
     }
 
     /// Parses a sum that is a whole entry. The parser can then parse another one.
@@ -419,9 +413,7 @@ pub(crate) fn parse_transform(
 
 fn factor(parser: &mut Parser<'_>) -> Parsed<Elementary> {
     let expected = "Tx, Ty, Tz, Rx, Ry or Rz";
-    let Token::Word(name) = parser.peek() else {
-        return Err(parser.unexpected(expected));
-    };
+    let Token::Word(name) = parser.peek() else { return Err(parser.unexpected(expected)) };
     let Some(index) = NAMES.iter().position(|known| *known == name) else {
         return Err(Diagnostic::new(parser.here(), format!("unknown motion `{name}`"))
             .label(format!("expected {expected}"))

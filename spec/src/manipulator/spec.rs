@@ -71,6 +71,9 @@ pub struct Spec {
     pub hash: String,
 }
 
+/// Prefix of the input that is the magnitude of a source.
+pub const MAGNITUDE: &str = "magnitude_";
+
 impl Spec {
     /// Returns the joint variables on which each of `A_1 … A_n` and `T` depends.
     pub fn variables_of_transforms(&self) -> Vec<Vec<usize>> {
@@ -222,12 +225,7 @@ impl Spec {
         });
         listed.collect::<Vec<_>>().join(", ")
     }
-}
 
-/// Prefix of the input that is the magnitude of a source.
-pub const MAGNITUDE: &str = "magnitude_";
-
-impl Spec {
     /// Adds an input for each enabled repeatable source, in their order, which multiplies the
     /// errors of the source. Its default is the source's factor. Its name is [`MAGNITUDE`]
     /// followed by the source's name as an identifier, and a number if that is taken.

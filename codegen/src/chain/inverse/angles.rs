@@ -128,8 +128,7 @@ pub(super) fn linear(g: &mut Graph, [k, c, s]: [Node; 3], free: Angle, size: f64
 /// Returns the solutions with given A² and w².
 fn roots(g: &mut Graph, [k, c, s]: [Node; 3], square: Node, rest: Node) -> [Root; 2] {
     let slack = g.constant(Rounding::Cosine.size(g));
-    let slack = g.mul(slack, square);
-    let exists = g.add(rest, slack);
+    let exists = g.add_product(rest, slack, square);
     let zero = g.zero();
     let rest = g.max(rest, zero);
     let w = g.sqrt(rest);

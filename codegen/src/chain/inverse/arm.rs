@@ -195,8 +195,7 @@ impl Arm<'_> {
             let [from, to] = [start, away].map(|v| g.dot(second.along, v));
             let way = g.sub(to, from);
             let travel = g.div(way, climb);
-            let moved = g.scale(travel, slide.along);
-            let u = g.add_vectors(start, moved);
+            let u = g.add_scaled(start, travel, slide.along);
             let between = g.sub_vectors(second.at, first.at);
             let [between, u, away] = {
                 let to = g.add_vectors(away, between);
@@ -208,10 +207,8 @@ impl Arm<'_> {
                 let q1 = angle_between(g, first.along, reached, away, self.free[0], self.probes.size)
                     .normalized(g);
                 let q1 = Root { angle: q1, exists: q2.exists };
-                found.push(Partial {
-                    joints: vec![Joint::Turn(q1), Joint::Turn(q2), Joint::Slide(travel)],
-                    exists: vec![],
-                });
+                let joints = vec![Joint::Turn(q1), Joint::Turn(q2), Joint::Slide(travel)];
+                found.push(Partial { joints, exists: vec![] });
             }
             return Some(found);
         }
@@ -229,8 +226,7 @@ impl Arm<'_> {
         let square = g.max(square, zero);
         let half = g.sqrt(square);
         for travel in [g.add(middle, half), g.sub(middle, half)] {
-            let moved = g.scale(travel, slide.along);
-            let u = g.add_vectors(start, moved);
+            let u = g.add_scaled(start, travel, slide.along);
             for [q1, q2] in self.turned_about_centre(g, u, away) {
                 let joints = vec![Joint::Turn(q1), Joint::Turn(q2), Joint::Slide(travel)];
                 found.push(Partial { joints, exists: vec![exists] });

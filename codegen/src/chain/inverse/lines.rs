@@ -198,8 +198,7 @@ impl Probes {
         if is_far || !self.are_zero(g, &[apart], self.size) {
             return None;
         }
-        let offset = g.scale(way, a.along);
-        let point = g.add_vectors(a.at, offset);
+        let point = g.add_scaled(a.at, way, a.along);
         Some(self.cleaned_vector(g, point, self.size))
     }
 

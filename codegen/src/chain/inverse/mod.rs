@@ -185,8 +185,7 @@ fn value(g: &mut Graph, Angle { sine, cosine }: Angle) -> Node {
         (Op::Neg(sine), Op::Neg(cosine)) => {
             let (other, half) = (g.atan2(sine, cosine), g.constant(PI));
             let side = g.call(Function::Side, other);
-            let turn = g.mul(half, side);
-            g.sub(other, turn)
+            g.sub_product(other, half, side)
         }
         _ => g.atan2(sine, cosine),
     }
@@ -211,8 +210,7 @@ fn finished(g: &mut Graph, spec: &Spec, partial: &Partial, free: &[Angle]) -> (V
                 beyond.map_or(least, |beyond| g.call(Function::Side, beyond))
             });
             let (turns, half) = (g.sub(below, above), g.constant(PI));
-            let way = g.mul(half, turns);
-            value = g.add(value, way);
+            value = g.add_product(value, half, turns);
         }
         if let Some((limit, end)) = below {
             margins.push(g.sub(value, end));
@@ -248,6 +246,5 @@ fn finished(g: &mut Graph, spec: &Spec, partial: &Partial, free: &[Angle]) -> (V
     let one = g.constant(1.0);
     let least = margins.into_iter().reduce(|a, b| g.min(a, b)).unwrap_or(one);
     let (side, half) = (g.call(Function::Side, least), g.constant(0.5));
-    let side = g.mul(half, side);
-    (solution, g.add(half, side))
+    (solution, g.add_product(half, half, side))
 }

@@ -147,10 +147,7 @@ impl Leg {
                 let turned = root.angle.turn(g, line.along, away);
                 (g.add_vectors(line.at, turned), self.length)
             }
-            (Joint::Slide(way), Some(line)) => {
-                let offset = g.scale(*way, line.along);
-                (g.add_vectors(self.on_base, offset), self.length)
-            }
+            (Joint::Slide(way), Some(line)) => (g.add_scaled(self.on_base, *way, line.along), self.length),
             (Joint::Slide(way), None) => {
                 let symbol = Symbol::Variable(self.drive);
                 let length = g.substitute(&[self.length], |given| (given == symbol).then_some(*way))[0];

@@ -183,8 +183,7 @@ pub(super) fn wrenches(
             let columns = relative(graph, &a, &b);
             let [at_a, minus_b] =
                 [transposed(&columns), columns].map(|matrix| traced(graph, &matrix, moment));
-            let swing = graph.cross(difference, force);
-            let rest = graph.add_vectors(at_a, swing);
+            let rest = graph.add_cross(at_a, difference, force);
             (force, [at_a, graph.neg_vector(minus_b), graph.sub_vectors(minus_b, rest)])
         }
         Closure::Distance(_) => {

@@ -144,8 +144,7 @@ impl FactoredBlock {
         }
         for k in (0..solution.len()).rev() {
             for j in k + 1..solution.len() {
-                let part = graph.mul(self.upper[j][k], solution[j]);
-                solution[k] = graph.sub(solution[k], part);
+                solution[k] = graph.sub_product(solution[k], self.upper[j][k], solution[j]);
             }
             solution[k] = graph.mul(solution[k], self.reciprocals[k]);
         }
@@ -176,8 +175,7 @@ impl Reflection {
         let product = graph.products(&self.direction, vector);
         let along = graph.mul(self.factor, product);
         for (entry, direction) in vector.iter_mut().zip(&self.direction) {
-            let part = graph.mul(along, *direction);
-            *entry = graph.sub(*entry, part);
+            *entry = graph.sub_product(*entry, along, *direction);
         }
     }
 }

@@ -332,8 +332,7 @@ impl Kinematics for Parts<'_> {
             let weighted = column.map(|entry| graph.mul(*variance, entry));
             for i in 0..6 {
                 for j in i..6 {
-                    let part = graph.mul(weighted[i], column[j]);
-                    sums[i][j] = graph.add(sums[i][j], part);
+                    sums[i][j] = graph.add_product(sums[i][j], weighted[i], column[j]);
                     sums[j][i] = sums[i][j];
                 }
             }

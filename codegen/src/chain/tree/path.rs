@@ -179,8 +179,7 @@ fn advance(
     let estimated = difference_is_positive(g, old, new);
     let mut margin = one;
     for (determinant, accepted) in system.determinants.iter().zip(accepted) {
-        let least = g.mul(quarter, *accepted);
-        let left = g.sub(*determinant, least);
+        let left = g.sub_product(*determinant, quarter, *accepted);
         margin = g.min(margin, left);
     }
     let sound = is_positive(g, margin);
@@ -230,8 +229,7 @@ fn advance(
     after.extend([more, remaining, next, largest, tolerance, size]);
     for (determinant, accepted) in system.determinants.iter().zip(accepted) {
         let change = g.sub(*determinant, *accepted);
-        let change = g.mul(reached, change);
-        after.push(g.add(*accepted, change));
+        after.push(g.add_product(*accepted, reached, change));
     }
     after
 }
@@ -299,8 +297,7 @@ fn moved(g: &mut Graph, loops: &ClosedLoops, symbol: Symbol, share: Node, has_er
     };
     let home = g.constant(home);
     let way = g.sub(value, home);
-    let way = g.mul(share, way);
-    Some(g.add(home, way))
+    Some(g.add_product(home, share, way))
 }
 
 /// Returns 1 if a number is not negative, otherwise 0.

@@ -82,8 +82,7 @@ impl LoopSystem {
         for (step, unit) in self.step.iter().zip(units) {
             let per_unit = graph.constant(1.0 / unit);
             let step = graph.mul(per_unit, *step);
-            let square = graph.mul(step, step);
-            sum = graph.add(sum, square);
+            sum = graph.add_product(sum, step, step);
         }
         sum
     }

@@ -133,8 +133,7 @@ impl<'s> View<'s> {
             let mut velocity = motion.velocity;
             if frame != Some(motion.frame) {
                 let lever = graph.sub_vectors(point, self.poses[motion.frame].position);
-                let swing = graph.cross(motion.rotation, lever);
-                velocity = graph.add_vectors(velocity, swing);
+                velocity = graph.add_cross(velocity, motion.rotation, lever);
             }
             sum = [graph.add_vectors(sum[0], velocity), graph.add_vectors(sum[1], motion.rotation)];
         }

@@ -118,11 +118,8 @@ impl Block<'_> {
             if let Stage::Call { routine, .. } = stage
                 && called.insert(*routine)
             {
-                self.printer.writer.lines(&format!(
-                    "{} : {}_{routine};",
-                    instance(routine),
-                    self.printer.prefix
-                ));
+                let prefix = self.printer.prefix;
+                self.printer.writer.lines(&format!("{} : {prefix}_{routine};", instance(routine)));
             }
         }
         for array in self.arrays(Role::Zeros) {

@@ -10,6 +10,7 @@ use abbe_core::compensator::{CHANGE, LARGEST, bound};
 use abbe_core::function::{COMPENSATED, Signature};
 use abbe_core::{Description, LookupTable};
 use abbe_spec::{Spec, Table};
+use indexmap::IndexSet;
 
 use super::declarations::{argument, array_name, array_type, document, numbers, section, variables};
 use super::{Support, comment, instance, number};
@@ -65,12 +66,7 @@ pub(super) fn declarations(writer: &mut Writer, procedure: &Procedure, prefix: &
 
 /// Prints declarations of variables, those of one type together.
 fn declare(writer: &mut Writer, prefix: &str, list: &[Variable]) {
-    let mut lens: Vec<usize> = Vec::new();
-    for (_, len) in arrays(list) {
-        if !lens.contains(&len) {
-            lens.push(len);
-        }
-    }
+    let lens: IndexSet<usize> = arrays(list).map(|(_, len)| len).collect();
     let one = |writer: &mut Writer, kind, of_type: &str| {
         let names =
             list.iter().filter(|variable| variable.kind == kind).map(|variable| variable.name.to_owned());
@@ -128,6 +124,7 @@ impl Printer for BlockPrinter<'_> {
     const TRUTH: [&'static str; 2] = ["FALSE", "TRUE"];
     const BRANCH: [&'static str; 3] = ["IF ", " THEN", "END_IF;"];
     const LOOP_END: &'static str = "END_FOR;";
+    const LOOPS_ONCE: bool = false;
     const HAS_LESS: bool = false;
     const LEAVE: &'static str = "EXIT;";
     const NOT: &'static str = "NOT ";
@@ -189,26 +186,6 @@ impl Printer for BlockPrinter<'_> {
             let call = format!("{}_cosine_and_sine({}, {sine})", self.prefix, angle.text);
             self.assign(cosine, &call, None);
         }
-    }
-
-    /// Some compilers skip a loop from a number to itself.
-    fn repeat(
-        &mut self,
-        counter: &str,
-        range: &[Index; 2],
-        is_descending: bool,
-        body: impl FnOnce(&mut Self),
-    ) {
-        if let [Some(first), Some(behind)] = range.each_ref().map(Index::number)
-            && behind == first + 1
-        {
-            self.assign(counter, &first.to_string(), None);
-            return body(self);
-        }
-        let head = self.loop_head(counter, range, is_descending);
-        self.writer.begin(&head);
-        body(self);
-        self.writer.close(Self::LOOP_END);
     }
 
     /// Local arrays are declared above the statements.

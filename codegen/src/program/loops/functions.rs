@@ -175,10 +175,7 @@ impl RoutineBuilder<'_, '_> {
         let column = body.six(columns, listed(0));
         let sum = body.six(displacements, listed(1));
         let g = &mut body.graph;
-        let sum = [0, 1, 2, 3, 4, 5].map(|i| {
-            let part = g.mul(value, column[i]);
-            g.add(sum[i], part)
-        });
+        let sum = [0, 1, 2, 3, 4, 5].map(|i| g.add_product(sum[i], value, column[i]));
         body.write(displacements, listed(1), &sum);
         self.each(Count::Effects, body);
     }

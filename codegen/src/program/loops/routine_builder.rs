@@ -58,11 +58,8 @@ impl<'d, 'm> RoutineBuilder<'d, 'm> {
     }
 
     pub(super) fn backwards(&mut self, body: Body) {
-        self.stages.push(body.stage(Some(Repeated {
-            count: Count::Frames,
-            backwards: true,
-            while_positive: None,
-        })));
+        let repeated = Repeated { count: Count::Frames, backwards: true, while_positive: None };
+        self.stages.push(body.stage(Some(repeated)));
     }
 
     /// Returns the axis of the tool about which the last of the Euler angles turns.
@@ -84,9 +81,7 @@ impl<'d, 'm> RoutineBuilder<'d, 'm> {
     /// Computes the coefficients of rows 4–6 and the margin from the [last axis](Self::last_axis)
     /// of the tool.
     pub(super) fn rows(&mut self, axis: impl FnOnce(&mut Body) -> Vector) -> RowsArray {
-        let Some(last) = self.loops.orientation.last_axis() else {
-            return RowsArray::ROTATION_VECTOR;
-        };
+        let Some(last) = self.loops.orientation.last_axis() else { return RowsArray::ROTATION_VECTOR };
         let euler = self.zeros("euler", &[Count::Exactly(Rows::PARTS)]);
         let mut body = Body::default();
         let axis = axis(&mut body);

@@ -116,12 +116,8 @@ impl<'m> FrameLoops<'m> {
         let Sum { terms, sums, mut tables, .. } = sum;
         let by_source =
             model.effects.iter().map(|effect| [6 * effect.frame + effect.component as usize, effect.source]);
-        let rows = by_source.collect();
-        tables.push(Table {
-            name: "EFFECT_COLUMNS",
-            documentation: "Column of `J_e` and source of every effect.",
-            rows,
-        });
+        let documentation = "Column of `J_e` and source of every effect.";
+        tables.push(Table { name: "EFFECT_COLUMNS", documentation, rows: by_source.collect() });
         let mut terms: Vec<Node> = terms.into_iter().collect();
         if terms.is_empty() {
             // A chain without motion still needs a nonempty array of terms.

@@ -55,13 +55,9 @@ impl Alternatives {
             }
             of.push(start..alternatives.len() as u32);
         }
-        let mut outputs = Vec::new();
         let mut is_known = vec![false; reached.len()];
-        for class in firsts.into_iter().map(number) {
-            if !std::mem::replace(&mut is_known[class as usize], true) {
-                outputs.push(class);
-            }
-        }
+        let is_new = |class: &u32| !std::mem::replace(&mut is_known[*class as usize], true);
+        let outputs = firsts.into_iter().map(number).filter(is_new).collect();
         let (users, users_of) = users(&alternatives, &of);
         Self { classes, alternatives, of, users, users_of, outputs }
     }

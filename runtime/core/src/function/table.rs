@@ -177,13 +177,7 @@ macro_rules! function_array {
         )
     };
     (pose: $($then:tt)+) => {
-        $($then)+!(
-            "pose",
-            Pose,
-            [[f64; 3]; 4],
-            "length unit",
-            "Columns x, y, z axis and position in `F_0`."
-        )
+        $($then)+!("pose", Pose, [[f64; 3]; 4], "length unit", "Columns x, y, z axis and position in `F_0`.")
     };
     (target: $($then:tt)+) => {
         $($then)+!(
@@ -270,13 +264,7 @@ macro_rules! function_array {
         )
     };
     (corrected: $($then:tt)+) => {
-        $($then)+!(
-            "corrected",
-            Variables,
-            [f64; VARIABLES],
-            "length unit, rad",
-            "Commands to use instead of `q`, in the same order."
-        )
+        $crate::function_array!(of_variables "corrected", "Commands to use instead of `q`, in the same order.": $($then)+)
     };
     (last: $($then:tt)+) => {
         $crate::function_array!(of_corrections "last", "`correction` of the previous cycle; at first `last` of `begin`, or zeros.": $($then)+)
@@ -307,19 +295,16 @@ macro_rules! function_array {
         $crate::function_array!(deviation "after", "ΔX at `corrected`, in the form of `before`.": $($then)+)
     };
     (command: $($then:tt)+) => {
-        $($then)+!(
-            "command",
-            Variables,
-            [f64; VARIABLES],
-            "length unit, rad",
-            "Command whose corrected one is `q`, in the same order."
-        )
+        $crate::function_array!(of_variables "command", "Command whose corrected one is `q`, in the same order.": $($then)+)
     };
     (first: $($then:tt)+) => {
         $crate::function_array!(of_corrections "last", "`q` minus `command`: `last` of the first cycle.": $($then)+)
     };
     (left: $($then:tt)+) => {
         $crate::function_array!(deviation "after", "ΔX of the ideal pose at `command`, minus the real one at `q`: position of the tool point in `F_0`, then rotation vector.": $($then)+)
+    };
+    (of_variables $name:literal, $documentation:literal: $($then:tt)+) => {
+        $($then)+!($name, Variables, [f64; VARIABLES], "length unit, rad", $documentation)
     };
     (of_corrections $name:literal, $documentation:literal: $($then:tt)+) => {
         $($then)+!($name, Corrections, [f64; VARIABLES], "length unit, rad", $documentation)

@@ -101,9 +101,7 @@ impl LookupTable<'_> {
         let piece = self.piece_from(bucket, x);
         (x - self.knot(piece), *self.coefficients(piece))
     }
-}
 
-impl LookupTable<'_> {
     /// Returns the value at x. NaN beyond the ends of a table that does not extrapolate.
     ///
     /// ```

@@ -194,30 +194,26 @@ fn read_numbers(section: &Section<'_>, place: &Item<'_>, chain: Chain<'_>) -> Op
             .help("give its errors e_x, e_y, e_z, e_s, e_r, e_p, or those of a `joint` or `parameter`"),
         );
     }
-    let mut deviations = Vec::new();
-    let mut complete = true;
-    for number in DhNumber::ALL {
-        let Some(item) = table.get(number.name()) else { continue };
+    let read = |number: DhNumber| {
+        let item = table.get(number.name())?;
         let what = format!("the error of `{}`", number.name());
         let dimension = Some(motion_dimension(number.motion().0));
         let entry = Entry { dimension, what: &what, names: Allowed::Everything };
-        match item.expression(chain.scope, entry) {
-            Some(error) => {
-                if number.motion().0 == Motion::Rotation {
-                    check_error_of_angle(&error, section.document);
-                }
-                deviations.push(Deviation {
-                    number: ChainNumber::DenavitHartenberg { frame, number },
-                    cause: DeviationCause::Error(error),
-                    span: item.key_span,
-                });
-            }
-            None => complete = false,
+        let error = item.expression(chain.scope, entry);
+        if number.motion().0 == Motion::Rotation {
+            error.iter().for_each(|error| check_error_of_angle(error, section.document));
         }
-    }
+        let number = ChainNumber::DenavitHartenberg { frame, number };
+        Some(error.map(|error| Deviation {
+            number,
+            cause: DeviationCause::Error(error),
+            span: item.key_span,
+        }))
+    };
+    let deviations: Vec<Option<_>> = DhNumber::ALL.into_iter().filter_map(read).collect();
     if table.items().next().is_none() {
         let mistake = Diagnostic::new(place.span(), "`dh` is empty").label("no error here");
         return section.document.fail(mistake.help("give at least one of theta, d, a, alpha"));
     }
-    complete.then_some(deviations)
+    deviations.into_iter().collect()
 }

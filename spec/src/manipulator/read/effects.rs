@@ -77,29 +77,23 @@ fn read_place(item: &Item<'_>, scope: &Scope) -> Option<Vec<Factor>> {
 }
 
 fn read_errors(section: &Section<'_>, scope: &Scope) -> Option<Vec<(Component, Expression)>> {
-    let mut errors = Vec::new();
-    let mut complete = true;
-    for component in Component::ALL {
-        if let Some(item) = section.get(component.name()) {
-            let (motion, axis) = motion(component);
-            let (dimension, verb) = match motion {
-                Motion::Translation => (Dimension::LENGTH, "translation along"),
-                Motion::Rotation => (Dimension::NONE, "rotation about"),
-            };
-            let what = format!("`{}`, a {verb} {},", component.name(), ["x", "y", "z"][axis]);
-            let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
-            match item.expression(scope, entry) {
-                Some(value) => {
-                    if dimension == Dimension::NONE && section.get("magnitude").is_none() {
-                        check_error_of_angle(&value, section.document);
-                    }
-                    errors.push((component, value));
-                }
-                None => complete = false,
-            }
+    let read = |component: Component| {
+        let item = section.get(component.name())?;
+        let (motion, axis) = motion(component);
+        let (dimension, verb) = match motion {
+            Motion::Translation => (Dimension::LENGTH, "translation along"),
+            Motion::Rotation => (Dimension::NONE, "rotation about"),
+        };
+        let what = format!("`{}`, a {verb} {},", component.name(), ["x", "y", "z"][axis]);
+        let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
+        let value = item.expression(scope, entry);
+        if dimension == Dimension::NONE && section.get("magnitude").is_none() {
+            value.iter().for_each(|value| check_error_of_angle(value, section.document));
         }
-    }
-    complete.then_some(errors)
+        Some(value.map(|value| (component, value)))
+    };
+    let errors: Vec<Option<_>> = Component::ALL.into_iter().filter_map(read).collect();
+    errors.into_iter().collect()
 }
 
 /// Name of `F_0` where a frame is named.

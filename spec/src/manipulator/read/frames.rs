@@ -90,10 +90,9 @@ pub(super) fn motion_dimension(motion: Motion) -> Dimension {
 fn read_matrix(item: &Item<'_>, scope: &Scope) -> Option<Matrix> {
     let rows: [Item<'_>; 4] = item.entries("four rows of four entries")?;
     let mut read = Vec::new();
-    let mut complete = true;
     for (i, row) in rows.iter().enumerate() {
         let Some(entries) = row.entries::<4>("four rows of four entries") else {
-            complete = false;
+            read.push(None);
             continue;
         };
         for (j, entry) in entries.iter().enumerate() {
@@ -103,15 +102,10 @@ fn read_matrix(item: &Item<'_>, scope: &Scope) -> Option<Matrix> {
                 _ => (Dimension::NONE, "an entry of the rotation"),
             };
             let expected = Entry { dimension: Some(dimension), what, names: Allowed::Geometry };
-            match entry.expression(scope, expected) {
-                Some(expression) => read.push(expression),
-                None => complete = false,
-            }
+            read.push(entry.expression(scope, expected));
         }
     }
-    if !complete {
-        return None;
-    }
+    let mut read = read.into_iter().collect::<Option<Vec<Expression>>>()?;
     for (j, entry) in read.split_off(12).iter().enumerate() {
         let expected = if j == 3 { 1.0 } else { 0.0 };
         if entry.constant() != Some(expected) {
@@ -142,9 +136,7 @@ fn denavit_hartenberg(item: &Item<'_>, scope: &Scope, convention: DhConvention) 
 fn origin(item: &Item<'_>, scope: &Scope) -> Option<Vec<Factor>> {
     let section = item.table("`origin`", &[&keys::ORIGIN])?;
     let three = |key: &str, motion: Motion| -> Option<Vec<Factor>> {
-        let Some(item) = section.get(key) else {
-            return Some(Vec::new());
-        };
+        let Some(item) = section.get(key) else { return Some(Vec::new()) };
         let entries: [Item<'_>; 3] = item.entries("three numbers")?;
         let what = format!("an entry of `{key}`");
         let expected =
@@ -182,9 +174,7 @@ fn about_axis(
     if let Some(item) = item {
         let entries: [Item<'_>; 3] = item.entries("three numbers")?;
         let read = entries.map(|entry| entry.amount(scope, Dimension::NONE, "an entry of `axis`"));
-        let [Some(x), Some(y), Some(z)] = read else {
-            return None;
-        };
+        let [Some(x), Some(y), Some(z)] = read else { return None };
         axis = [x, y, z];
         let length = (x * x + y * y + z * z).sqrt();
         if (length - 1.0).abs() > rigid::TOLERANCE {

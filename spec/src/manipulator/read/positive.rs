@@ -113,9 +113,7 @@ impl Declarations {
 
     /// Records a negative value; returns `true` if it is negative.
     fn check_not_negative(&self, value: &Expression, what: &str, help: &str, document: &Document) -> bool {
-        let Some((_, label)) = self.least(value).filter(|(least, _)| *least < 0.0) else {
-            return false;
-        };
+        let Some((_, label)) = self.least(value).filter(|(least, _)| *least < 0.0) else { return false };
         document
             .mistake(Diagnostic::new(value.span(), format!("{what} is negative")).label(label).help(help));
         true

@@ -199,14 +199,8 @@ fn read_head(item: &Item<'_>) -> Option<Head> {
     let reference = section.optional_text("reference");
     let name = name.unwrap_or_default();
     let title = if title.is_empty() { name.clone() } else { title };
-    Some(Head {
-        name,
-        title,
-        description,
-        reference,
-        length: length?,
-        orientation: orientation.unwrap_or(Orientation::RotationVector),
-    })
+    let orientation = orientation.unwrap_or(Orientation::RotationVector);
+    Some(Head { name, title, description, reference, length: length?, orientation })
 }
 
 /// A frame whose transform has not been read yet, because it may use names declared later.
