@@ -102,7 +102,7 @@ impl Chain {
         self.frames.iter().fold(Isometry3::identity(), frame) * self.tool.motion()
     }
 
-    /// Returns configuration `k` of those at which chains are compared. They fill the limits evenly.
+    /// Returns configuration `k` of those at which chains are compared; they fill the limits.
     pub(crate) fn sample(&self, k: usize) -> Vec<f64> {
         let value = |(v, variable): (usize, &Variable)| {
             let [lower, upper] = variable.limits.unwrap_or([-PI, PI]);

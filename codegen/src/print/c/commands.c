@@ -14,7 +14,7 @@ for (int at_call = 0; at_call < CASES; at_call++) {
             share = (k < BELOW) ? -0.001 : 1.001;
         }
         command_at[j] = (k < SAME || !(span < 1e30)) ? given_q[j] : (lower + (share * span));
-        first[j] = ((double)((((5 * k) + (4 * j)) % 9) - 4) * 0.25 * (double)(k % 2)) * NAME_change[j];
+        first[j] = SHARE_OF_LAST * NAME_change[j];
         const int scale = WHICH;
         change[j] = scales[scale] * NAME_change[j];
         largest[j] = scales[8 + scale] * NAME_largest[j];

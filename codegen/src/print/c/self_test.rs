@@ -194,6 +194,8 @@ impl CPrinter<'_> {
             format!("\n        || sums_to({name}, {len}, expected[{at}], tolerances[{at}]) == 0")
         };
         let [same, anywhere, below, _] = commands.ends();
+        let last =
+            ["((double)((((5 * k) + (4 * j)) % 9) - 4) * 0.25 * (double)(k % 2))", "0.0f"][real as usize];
         let text = [
             ("CASES", calls.len().to_string()),
             ("COUNT", count.to_string()),
@@ -203,11 +205,9 @@ impl CPrinter<'_> {
             ("JOINTS", (anywhere - same).to_string()),
             ("GIVEN", arguments.join(", ")),
             ("SUMS", results.enumerate().map(is_wrong).collect()),
+            ("SHARE_OF_LAST", last.to_owned()),
             ("NUMBER", number.to_string()),
-            (
-                "WHICH",
-                ["(k < 2) ? 0 : ((k + (3 * j)) % 8)", "(k < 8) ? (k % 4) : 0"][real as usize].to_owned(),
-            ),
+            ("WHICH", ["(k < 2) ? 0 : ((k + (3 * j)) % 8)", "(k == 4) ? 1 : 0"][real as usize].to_owned()),
             ("UPPER", name.to_ascii_uppercase()),
             ("FUNCTION", signature.name.to_owned()),
             ("NAME", name.to_string()),
