@@ -62,7 +62,10 @@ pub(crate) fn unit_help(word: &str) -> String {
     let spelled = SPELLINGS.iter().find(|(words, _)| words.contains(&word)).map(|(_, unit)| *unit);
     let is_long = |name: &&str| name.len() > 2 && word.len() > 2;
     let in_capitals = || UNIT_NAMES.into_iter().filter(is_long).find(|name| name.eq_ignore_ascii_case(word));
-    let near = || nearest(word, UNIT_NAMES.into_iter().filter(|name| name.len() > 3 && word.len() > 3));
+    // What differs in its first letter only has another prefix.
+    let is_other = |name: &&str| name.chars().skip(1).eq(word.chars().skip(1));
+    let is_name = |name: &&str| (name.len() > 3 || matches!(*name, "deg" | "rad")) && word.len() > 3;
+    let near = || nearest(word, UNIT_NAMES.into_iter().filter(|name| is_name(name) && !is_other(name)));
     match spelled {
         Some(unit) if unit.contains(' ') => format!("1 {word} is `{unit}`"),
         Some(unit) => format!("write `{unit}`"),

@@ -87,6 +87,7 @@ fn hints_have_the_size_that_was_meant() {
         ("Kg", 1.0),
         ("mpa", 1e6),
         ("arcsecs", std::f64::consts::PI / 648_000.0),
+        ("degg", std::f64::consts::PI / 180.0),
     ] {
         let help = unit_help(word);
         let unit = help.split('`').nth(1).unwrap_or_else(|| panic!("{word}: {help}"));
@@ -103,7 +104,7 @@ fn hints_have_the_size_that_was_meant() {
         assert!((value / size - 1.0).abs() < 1e-12, "{word}: {help}, {value}");
     }
     // Nothing of another size is offered.
-    for word in ["degC", "V", "px", "tick", "Hz", "rpm", "x", "kW", "mn"] {
+    for word in ["nrad", "Mrad", "degC", "V", "px", "tick", "Hz", "rpm", "x", "kW", "mn"] {
         assert!(!unit_help(word).contains("did you mean"), "{word}: {}", unit_help(word));
     }
 }
