@@ -60,10 +60,12 @@ const CELSIUS: [&str; 4] = ["degC", "C", "celsius", "Celsius"];
 /// Returns what to write for a word that is no unit: nothing that has another size.
 pub(crate) fn unit_help(word: &str) -> String {
     let spelled = SPELLINGS.iter().find(|(words, _)| words.contains(&word)).map(|(_, unit)| *unit);
-    let is_long = |name: &&str| name.len() > 2 && word.len() > 2;
+    let is_one_case = word == word.to_lowercase() || word == word.to_uppercase();
+    let is_long = |name: &&str| is_one_case && name.len() > 2 && word.len() > 2;
     let in_capitals = || UNIT_NAMES.into_iter().filter(is_long).find(|name| name.eq_ignore_ascii_case(word));
     // What differs in its first letter only has another prefix.
-    let is_other = |name: &&str| name.chars().skip(1).eq(word.chars().skip(1));
+    let rest = || word.chars().skip(1);
+    let is_other = |name: &&str| rest().eq(name.chars()) || rest().eq(name.chars().skip(1));
     let is_name = |name: &&str| (name.len() > 3 || matches!(*name, "deg" | "rad")) && word.len() > 3;
     let near = || nearest(word, UNIT_NAMES.into_iter().filter(|name| is_name(name) && !is_other(name)));
     match spelled {

@@ -189,7 +189,10 @@ fn generated(robot: &impl Evaluate<Inverse>) {
 }
 
 /// Robot with wrong results of `inverse`.
-struct Wrong(&'static dyn Manipulator, fn(&mut [f64], &mut [f64]));
+struct Wrong(&'static dyn Manipulator, Change);
+
+/// Change of solutions, and of whether they exist.
+type Change = fn(&mut [f64], &mut [f64]);
 
 impl Manipulator for Wrong {
     fn description(&self) -> &abbe::Description {
@@ -219,7 +222,7 @@ fn the_law_of_inverses_holds_and_finds_wrong_solutions() {
         let found = laws::inverse(robot, laws::SAMPLES).unwrap();
         println!("{name}: {:e}", found.relative);
         found.within("inverse", laws::ROUNDING_TOLERANCE).unwrap();
-        let wrong: [fn(&mut [f64], &mut [f64]); 4] = [
+        let wrong: [Change; 4] = [
             |solutions, _| solutions.iter_mut().step_by(6).for_each(|q| *q += 1e-7),
             |solutions, _| solutions.iter_mut().skip(5).step_by(6).for_each(|q| *q -= 1e-7),
             |solutions, _| solutions.chunks_exact_mut(6).for_each(|q| q.swap(3, 4)),

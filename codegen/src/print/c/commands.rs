@@ -107,7 +107,7 @@ impl<'m> Commands<'m> {
             each(&|j, one| share(j) * nearest(bound(self.description, one.kind, bounds)))
         };
         let last = each(&|j, one| {
-            let is_first = self.real == Real::Float || k % 2 == 0;
+            let is_first = self.real == Real::Float || k.is_multiple_of(2);
             let share = if is_first { 0.0 } else { (((5 * k + 4 * j) % 9) as f64 - 4.0) * 0.25 };
             share * nearest(bound(self.description, one.kind, CHANGE))
         });
