@@ -26,6 +26,9 @@ const JOINTS: usize = 8;
 const SCALES: [[f64; 8]; 2] =
     [[1e3, 0.25, 1.0, 0.5, 1e3, 0.1, 0.02, 1.0], [1e3, 1e3, 0.03, 1.0, 0.1, 1e3, 0.3, 0.01]];
 
+/// Multiple of the largest rounding errors that changes no result by more than its tolerance.
+const MARGIN: f64 = 8.0;
+
 /// Share of the range by which a command is beyond a limit.
 const BEYOND: f64 = 1e-3;
 
@@ -67,8 +70,10 @@ impl<'m> Commands<'m> {
     /// Returns the calls whose results rounding errors do not change by more than the tolerance.
     pub(super) fn calls(&self, signature: &Signature) -> Vec<Call> {
         let [same, anywhere, _, above] = self.ends();
-        let is_other = |k: usize| self.real == Real::Float && (same..anywhere).contains(&k);
-        let end = if self.real == Real::Float && signature.name != COMPENSATED.name { same } else { above };
+        // Loops may be nearly singular anywhere.
+        let is_one = self.real == Real::Float || self.description.has_loops();
+        let is_other = |k: usize| is_one && (same..anywhere).contains(&k);
+        let end = if is_one && signature.name != COMPENSATED.name { same } else { above };
         (0..end).filter(|k| !is_other(*k)).filter_map(|number| self.call(signature, number)).collect()
     }
 
@@ -117,14 +122,16 @@ impl<'m> Commands<'m> {
 
     fn call(&self, signature: &Signature, number: usize) -> Option<Call> {
         let (command, cycle) = self.arguments(number);
-        let [least, most] = [-1.0, 1.0].map(|sign| self.results(signature, &command, &cycle, sign));
-        let ((numbers, status), (others, other)) = (least?, most?);
+        let (numbers, status) = self.results(signature, &command, &cycle, 0.0)?;
+        // Others may round in other ways, and loops may need another step.
+        let others = [-MARGIN, MARGIN].map(|sign| self.results(signature, &command, &cycle, sign));
+        let others: Vec<_> = others.into_iter().collect::<Option<_>>()?;
         // Numbers of a ten-thousandth of the largest correction: rounding errors and the tolerances
         // of single precision are smaller, what a wrong step leaves is larger.
         // Beyond a limit the iterations do not end: only the status counts, and the size.
         let share = [1e-7, 1e-3, 1.0][if status == Status::OutsideLimits { 2 } else { self.real as usize }];
         let mut sums = Vec::new();
-        for (array, (numbers, others)) in signature.results.iter().zip(numbers.iter().zip(&others)) {
+        for (i, (array, numbers)) in signature.results.iter().zip(&numbers).enumerate() {
             let is_pose = array.len(self.description) == 6 && matches!(array.name, "before" | "after");
             let unit = |k: usize| match self.description.variables.get(k) {
                 _ if is_pose => [1.0 / self.description.length.in_metres(), 1.0][usize::from(k > 2)] * 0.02,
@@ -136,13 +143,16 @@ impl<'m> Commands<'m> {
             };
             let size = sum(&|k| numbers[k].abs()) * self.real.unit_roundoff() * 16.0;
             let tolerance = share * sum(&unit) + size;
-            let [sum, other] = [sum(&|k| numbers[k]), sum(&|k| others[k])];
-            sums.push([sum, tolerance]);
-            if (sum - other).abs() > tolerance / 4.0 {
+            let is_far = |(other, _): &(Vec<Vec<f64>>, Status)| {
+                sum(&|k| numbers[k] - other[i][k]).abs() > tolerance / 4.0
+            };
+            if others.iter().any(is_far) {
                 return None;
             }
+            sums.push([sum(&|k| numbers[k]), tolerance]);
         }
-        (status == other).then_some(Call { number, sums, status })
+        let is_same = others.iter().all(|(_, other)| *other == status);
+        is_same.then_some(Call { number, sums, status })
     }
 
     /// Returns the results and the status, with the largest rounding errors, of a sign, in the
