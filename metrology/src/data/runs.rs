@@ -51,6 +51,22 @@ const SAME: f64 = 1e-9;
 const FORM: &str = "name columns `position (mm)`, `direction` and `deviation (um)`, or one column for \
                     each pass: `1+ (um)`, `1- (um)`";
 
+/// Returns the target positions in rising order, with the readings at each as the file has them.
+fn targets(mut readings: Vec<(f64, usize, f64)>) -> Vec<TargetRuns> {
+    readings.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut targets: Vec<TargetRuns> = Vec::new();
+    for (at, side, deviation) in readings {
+        let is_same = targets.last().is_some_and(|one| at - one.position <= SAME * at.abs().max(1.0));
+        if !is_same {
+            targets.push(TargetRuns { position: at, ..TargetRuns::default() });
+        }
+        if let Some(target) = targets.last_mut() {
+            target.deviations[side].push(deviation);
+        }
+    }
+    targets
+}
+
 /// Column of readings.
 struct Readings {
     place: usize,
@@ -126,7 +142,8 @@ pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
     // In mm or rad; deviations are shown in um or arcsec.
     let coherent = |unit: Unit, number: f64| unit.convert(number, LengthUnit::Millimetre);
     let shown = |deviation: f64| if is_rotary { 3600.0 * deviation.to_degrees() } else { 1e3 * deviation };
-    let mut lines: Vec<(String, Vec<TargetRuns>)> = Vec::new();
+    // Position, direction and deviation of each reading.
+    let mut lines: Vec<(String, Vec<(f64, usize, f64)>)> = Vec::new();
     for record in records {
         let record = record?;
         let failed = |reason: String| {
@@ -162,17 +179,11 @@ pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
                 lines.push((line.clone(), Vec::new()));
                 lines.len() - 1
             });
-            let targets = &mut lines[place].1;
-            let same = |one: &TargetRuns| (one.position - at).abs() <= SAME * at.abs().max(1.0);
-            let place = targets.iter().position(same).unwrap_or_else(|| {
-                targets.push(TargetRuns { position: at, ..TargetRuns::default() });
-                targets.len() - 1
-            });
-            targets[place].deviations[side].push(deviation);
+            lines[place].1.push((at, side, deviation));
         }
     }
-    for (line, targets) in &mut lines {
-        targets.sort_by(|a, b| a.position.total_cmp(&b.position));
+    let lines: Vec<_> = lines.into_iter().map(|(line, readings)| (line, targets(readings))).collect();
+    for (line, targets) in &lines {
         if targets.len() < 2 {
             let of =
                 if line.is_empty() { String::new() } else { format!(" of diagonal {}", line.escape_debug()) };

@@ -18,6 +18,8 @@
 //! Its uncertainty follows to first order from that of a reading, which is independent from reading
 //! to reading, and from that of the scale of the instrument, which is common to all.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use crate::data::TargetRuns;
@@ -170,17 +172,16 @@ impl Statistics<'_> {
     fn characteristic(&self, sum: &Sum) -> Option<Characteristic> {
         let value = self.value(sum)?;
         let uncertainty = self.uncertainty.map(|InstrumentUncertainty { reading, scale }| {
-            let total = |parts: &[(f64, usize, usize)], i: usize, d: usize| {
-                parts.iter().filter(|part| (part.1, part.2) == (i, d)).map(|part| part.0).sum::<f64>()
-            };
+            let mut totals: BTreeMap<(usize, usize), [f64; 2]> = BTreeMap::new();
+            for (part, list) in [&sum.means, &sum.deviations].into_iter().enumerate() {
+                list.iter().for_each(|(weight, i, d)| totals.entry((*i, *d)).or_default()[part] += weight);
+            }
             let mut variance = 0.0;
-            for (i, _) in self.positions.iter().enumerate() {
-                for d in 0..2 {
-                    let Some(ApproachResult { count, .. }) = self.approach(i, d) else { continue };
-                    let n = count as f64;
-                    variance += (total(&sum.means, i, d) * reading).powi(2) / n;
-                    variance += (total(&sum.deviations, i, d) * reading).powi(2) / (n - 1.0).max(1.0);
-                }
+            for ((i, d), [mean, deviation]) in totals {
+                let Some(ApproachResult { count, .. }) = self.approach(i, d) else { continue };
+                let n = count as f64;
+                variance += (mean * reading).powi(2) / n;
+                variance += (deviation * reading).powi(2) / (n - 1.0).max(1.0);
             }
             let lever: f64 =
                 sum.means.iter().map(|(weight, i, _)| weight * self.positions[*i].position).sum();

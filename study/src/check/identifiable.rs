@@ -49,7 +49,14 @@ pub(super) fn count(manipulator: &Interpreter, notes: &mut dyn Notes) -> Result<
     let parts = Parts::new(&manipulator.spec().variables_of_transforms());
     let is_chain = manipulator.spec().is_serial();
     let moved = (0..description.variables.len()).collect::<Vec<_>>();
-    let longest = if is_chain { parts.longest() } else { description.frames.len() + 1 };
+    // Without loops, only the frames that carry the tool have columns that are not zero.
+    let carrying =
+        std::iter::successors(description.tool_frame(), |frame| description.parent(*frame)).count();
+    let longest = match () {
+        () if is_chain => parts.longest(),
+        () if description.has_loops() => description.frames.len() + 1,
+        () => carrying + 1,
+    };
     // Enough for the rank of a chain whose longest part has this many transforms.
     let configurations = (3 * longest).max(60);
     let samples = random_joint_samples(manipulator, &moved, configurations, SEED)

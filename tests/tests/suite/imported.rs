@@ -273,7 +273,6 @@ fn faults_beside_the_chain_are_noted() {
         (branch("revolute", &format!("{limits}<mimic/>")), "has no `joint`"),
         (branch("revolute", "<axis xyz=\"${x}\"/>"), "xacro"),
         (joint("branch", "fixed", ["lamp", "nowhere"], "xyz=\"0 0 0\"", ""), "no link `nowhere`"),
-        ("<gazebo><vendor:lamp vendor:on=\"1\"/></gazebo>".to_owned(), "prefix `vendor`"),
     ];
     for (fault, part) in faults {
         let (spec, notes) =
@@ -281,6 +280,14 @@ fn faults_beside_the_chain_are_noted() {
         assert_eq!(spec, expected, "{fault}");
         let about = notes.iter().filter(|note| note.contains(part)).count();
         assert!(about == 1 && notes.iter().any(|note| note.starts_with("line ")), "{fault}: {notes:?}");
+    }
+    // Prefixes are part of names, declared or not, however deep.
+    let nested: String = (0..2000).map(|i| format!("<p{i}:x xmlns:p{i}=\"u{i}\">")).collect();
+    let ends: String = (0..2000).rev().map(|i| format!("</p{i}:x>")).collect();
+    let vendor = "<gazebo><!-- a:b --><vendor:lamp vendor:on='a>:b'/><![CDATA[<c:d>]]></gazebo>";
+    for beside in [vendor.to_owned(), nested + &ends] {
+        let (spec, notes) = with_notes(&robot("", &beside), None, false).unwrap();
+        assert!(spec == expected && notes.is_empty(), "{notes:?}");
     }
     let lamp = robot("", "<xacro:lamp on=\"side\"/>")
         .replace("<robot", "<robot xmlns:xacro=\"http://ros.org/xacro\"");

@@ -5,29 +5,15 @@ use std::collections::HashSet;
 use abbe_spec::diagnostic::Span;
 use abbe_spec::visible::alters_text;
 use abbe_spec::{Diagnostic, Document};
-use roxmltree::{Attribute, Error, Node};
+use roxmltree::{Attribute, Node};
 
 use super::robot::{Joint, JointKind, Link, Mimic, Named, Robot};
 use crate::placement::Placement;
 
 /// Parses a robot; mistakes go to the document.
 pub(super) fn robot(document: &Document) -> Option<Robot> {
-    let mut text = document.text.to_string();
+    let text = without_namespaces(&document.text);
     let mut notes = Vec::new();
-    // URDF has no namespaces: its readers take a prefix as part of a name.
-    while let Err(Error::UnknownNamespace(prefix, at)) = roxmltree::Document::parse(&text) {
-        let joined = ["<", "</", " ", "\t", "\n"].iter().fold(text.clone(), |text, before| {
-            text.replace(&format!("{before}{prefix}:"), &format!("{before}{prefix}_"))
-        });
-        if joined == text {
-            break;
-        }
-        notes.push(format!(
-            "line {}: the prefix `{prefix}` is not declared, and was read as part of names",
-            at.row
-        ));
-        text = joined;
-    }
     let xml = match roxmltree::Document::parse(&text) {
         Ok(xml) => xml,
         Err(error) => return document.fail(not_xml(&text, &error)),
@@ -38,7 +24,7 @@ pub(super) fn robot(document: &Document) -> Option<Robot> {
     }
     let line = |node: Node<'_, '_>| document.line(node.range().start);
     for node in root.children().filter(is_macro) {
-        let name = node.tag_name().name();
+        let name = &node.tag_name().name()[XACRO.len()..];
         notes.push(format!("line {}: the macro `{name}` was not expanded, and is ignored", line(node)));
     }
     let children = |tag| root.children().filter(move |node| node.has_tag_name(tag));
@@ -67,9 +53,45 @@ fn undeclared_root<'r>(links: &[Link], joints: &'r [Joint]) -> Option<&'r Named>
     (is_root && declared.is_subset(&carried)).then_some(first)
 }
 
+/// Beginning of the names of elements of xacro, see [`without_namespaces`].
+const XACRO: &str = "xacro_";
+
 /// Returns `true` for an element of xacro.
 fn is_macro(node: &Node<'_, '_>) -> bool {
-    node.tag_name().namespace().is_some_and(|namespace| namespace.contains("xacro"))
+    node.tag_name().name().starts_with(XACRO)
+}
+
+/// Replaces the colons in names of elements and attributes by underscores, at the same places.
+///
+/// URDF has no namespaces: its readers take a prefix, declared or not, as part of a name.
+fn without_namespaces(text: &str) -> String {
+    let others = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("<!", ">")];
+    let mut plain = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(start) = rest.find('<') {
+        if let Some((_, end)) = others.iter().find(|(begin, _)| rest[start..].starts_with(begin)) {
+            let length = rest[start..].find(end).map_or(rest.len(), |at| start + at + end.len());
+            plain.push_str(&rest[..length]);
+            rest = &rest[length..];
+            continue;
+        }
+        plain.push_str(&rest[..start]);
+        let (mut quote, mut end) = (None, rest.len());
+        for (at, c) in rest[start..].char_indices() {
+            match quote {
+                Some(open) if open == c => quote = None,
+                None if matches!(c, '"' | '\'') => quote = Some(c),
+                _ => {}
+            }
+            plain.push(if c == ':' && quote.is_none() { '_' } else { c });
+            if c == '>' && quote.is_none() {
+                end = start + at + 1;
+                break;
+            }
+        }
+        rest = &rest[end..];
+    }
+    plain + rest
 }
 
 /// Takes the mistakes of an element from the document. If xacro has left something in it, that is
@@ -119,7 +141,10 @@ fn not_urdf(root: Node<'_, '_>) -> Option<Diagnostic> {
     // What defines or includes something has not been expanded; a call may have been forgotten.
     let defines = |node: &Node<'_, '_>| {
         is_macro(node)
-            && matches!(node.tag_name().name(), "macro" | "property" | "include" | "arg" | "if" | "unless")
+            && matches!(
+                &node.tag_name().name()[XACRO.len()..],
+                "macro" | "property" | "include" | "arg" | "if" | "unless"
+            )
     };
     if let Some(node) = root.descendants().find(defines) {
         return Some(not_expanded(node));
