@@ -71,9 +71,9 @@ pub(super) fn definition(
     let commands = Commands::new(&routines.description, model, &given, real);
     let signatures = COMMANDS.into_iter().filter(|signature| routines.exported.contains(&signature.name));
     let calls: Vec<_> = signatures.map(|signature| (signature, commands.calls(signature))).collect();
-    let numbers = calls
-        .iter()
-        .map(|(signature, _)| (*signature, is_valid(signature, &routines.description, upper, real)));
+    let numbers = calls.iter().map(|(signature, calls)| {
+        (*signature, is_valid(signature, &routines.description, calls, upper, real))
+    });
     let tested = functions.into_iter().zip(sums).map(conditions);
     let tested: Vec<(&Signature, Vec<String>)> = tested.chain(numbers).collect();
     let takes =
@@ -113,9 +113,10 @@ pub(super) fn definition(
         let refused = ranges.iter().filter(|(name, _)| takes(signature, name)).map(|(_, range)| &range[..]);
         printer.test(signature, conditions, &refused.collect::<Vec<_>>(), index + 1);
     }
-    let first = tested.len() + 1 - calls.len();
-    for (index, (signature, calls)) in calls.iter().enumerate().filter(|(_, (_, calls))| !calls.is_empty()) {
-        printer.cases(&commands, signature, calls, first + index);
+    let number = tested.len();
+    let cycle = calls.iter().find(|(signature, calls)| **signature == COMPENSATED && !calls.is_empty());
+    if let Some((_, calls)) = cycle {
+        printer.cases(&commands, calls, number);
     }
     writer.lines("given[at] = kept;");
     writer.close("}");
@@ -154,68 +155,35 @@ impl CPrinter<'_> {
         self.writer.close("}");
     }
 
-    /// Prints the calls of a corrected command, or of where one begins, within several bounds.
-    fn cases(&mut self, commands: &Commands<'_>, signature: &Signature, calls: &[Call], number: usize) {
+    /// Prints the calls of corrected commands within several bounds.
+    fn cases(&mut self, commands: &Commands<'_>, calls: &[Call], number: usize) {
         let (description, real) = (&self.routines.description, self.real);
-        let (name, count) = (&description.name, description.variables.len());
+        let name = &description.name;
         self.writer.open("if (trial < 0)");
-        let mut list = |of_type: &str, name: &str, values: Vec<String>| {
-            self.writer.braces(&format!("static const {of_type} {name}[{}] = ", values.len()), &values, ";");
+        let mut list = |name: &str, numbers: Vec<f64>| {
+            let numbers: Vec<String> = numbers.into_iter().map(|number| real.number(number)).collect();
+            let head = format!("static const {real} {name}[{}] = ", numbers.len());
+            self.writer.braces(&head, &numbers, ";");
         };
-        let numbers =
-            |values: &mut dyn Iterator<Item = f64>| values.map(|value| real.number(value)).collect();
+        list("shares", calls.iter().flat_map(|call| call.shares).collect());
         let sums = || calls.iter().flat_map(|call| &call.sums);
-        list("int", "calls", calls.iter().map(|call| call.number.to_string()).collect());
-        let is_cycle = *signature == COMPENSATED;
-        if is_cycle {
-            list(real.name(), "scales", numbers(&mut commands.scales().into_iter().flatten()));
-        }
-        list(real.name(), "expected", numbers(&mut sums().map(|[sum, _]| *sum)));
-        list(real.name(), "tolerances", numbers(&mut sums().map(|[_, tolerance]| upwards(*tolerance))));
-        let code = |call: &Call| format!("{}_{}", name.to_ascii_uppercase(), call.status.name());
-        list("int", "statuses", calls.iter().map(code).collect());
-        for array in signature.results {
-            self.writer.lines(&format!("{real} {}[{}];", array.name, array.len(description)));
-        }
-        let some = |array: &&Array| !array.is_empty(description);
-        let given = signature.arguments.iter().filter(some).map(|array| match array.name {
-            "q" => "command_at",
-            "s" => "given_s",
-            "u" => "given_u",
-            "last" => "first",
-            other => other,
-        });
-        let results = signature.results.iter();
-        let arguments: Vec<&str> = given.chain(results.clone().map(|array| array.name)).collect();
-        let each = results.len();
-        let is_wrong = |(i, array): (usize, &Array)| {
-            let (name, len) = (array.name, array.len(description));
-            let at = if i == 0 { format!("{each} * at_call") } else { format!("({each} * at_call) + {i}") };
-            format!("\n        || sums_to({name}, {len}, expected[{at}], tolerances[{at}]) == 0")
-        };
-        let [same, anywhere, below, _] = commands.ends();
-        let last =
-            ["((double)((((5 * k) + (4 * j)) % 9) - 4) * 0.25 * (double)(k % 2))", "0.0f"][real as usize];
+        list("expected", sums().map(|[sum, _]| *sum).collect());
+        list("tolerances", sums().map(|[_, tolerance]| upwards(*tolerance)).collect());
+        let statuses = calls.iter().map(|call| self.code(call.status.name())).collect::<Vec<_>>();
+        self.writer.braces(&format!("static const int statuses[{}] = ", calls.len()), &statuses, ";");
+        let given = COMPENSATED.arguments.iter().filter(|array| matches!(array.name, "s" | "u"));
+        let given = given.filter(|array| !array.is_empty(description));
         let text = [
             ("CASES", calls.len().to_string()),
-            ("COUNT", count.to_string()),
-            ("SAME", same.to_string()),
-            ("ANYWHERE", anywhere.to_string()),
-            ("BELOW", below.to_string()),
-            ("JOINTS", (anywhere - same).to_string()),
-            ("GIVEN", arguments.join(", ")),
-            ("SUMS", results.enumerate().map(is_wrong).collect()),
-            ("SHARE_OF_LAST", last.to_owned()),
+            ("COUNT", description.variables.len().to_string()),
+            ("JOINT", commands.limited().map_or(0, |(at, _)| at).to_string()),
+            ("GIVEN ", given.map(|array| format!("given_{}, ", array.name)).collect()),
             ("NUMBER", number.to_string()),
-            ("WHICH", ["(k < 2) ? 0 : ((k + (3 * j)) % 8)", "(k == 4) ? 1 : 0"][real as usize].to_owned()),
             ("UPPER", name.to_ascii_uppercase()),
-            ("FUNCTION", signature.name.to_owned()),
             ("NAME", name.to_string()),
         ];
         let text = text.iter().fold(real.text(CASES), |text, (word, with)| text.replace(word, with));
-        let of_cycles = ["first[", "scale", "change[", "largest["];
-        let lines = text.lines().filter(|line| is_cycle || !of_cycles.iter().any(|name| line.contains(name)));
-        lines.for_each(|line| self.writer.lines(line));
+        self.writer.lines(text.trim_end());
         self.writer.close("}");
     }
 }
@@ -246,13 +214,25 @@ fn sums_to(signature: &Signature, upper: &str, sums: &Sums, real: Real) -> Vec<S
 }
 
 /// Returns the conditions that the results of a corrected command are finite, and its status one
-/// of those with results.
-fn is_valid(signature: &Signature, description: &Description, upper: &str, real: Real) -> Vec<String> {
+/// of those with results; for where one begins, that they are as computed.
+fn is_valid(
+    signature: &Signature,
+    description: &Description,
+    calls: &[Call],
+    upper: &str,
+    real: Real,
+) -> Vec<String> {
     let infinity = real.number(f64::INFINITY);
     let finite =
         |array: &Array| format!("are_below({}, {}, {infinity}) != 0", array.name, array.len(description));
     let status = format!("(status == {upper}_OK || status >= {upper}_NOT_CONVERGED)");
-    signature.results.iter().map(finite).chain([status]).collect()
+    let sums = calls.first().filter(|_| *signature != COMPENSATED).into_iter().flat_map(|call| &call.sums);
+    let sum = |(array, [sum, tolerance]): (&Array, &[f64; 2])| {
+        let [sum, tolerance] = [*sum, upwards(*tolerance)].map(|number| real.number(number));
+        format!("sums_to({}, {}, {sum}, {tolerance}) != 0", array.name, array.len(description))
+    };
+    let sums = signature.results.iter().zip(sums).map(sum);
+    signature.results.iter().map(finite).chain([status]).chain(sums).collect()
 }
 
 /// Rounds a bound up to two digits.
