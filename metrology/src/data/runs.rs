@@ -51,8 +51,11 @@ const SAME: f64 = 1e-9;
 const FORM: &str = "name columns `position (mm)`, `direction` and `deviation (um)`, or one column for \
                     each pass: `1+ (um)`, `1- (um)`";
 
+/// Position, direction and deviation.
+type Reading = (f64, usize, f64);
+
 /// Returns the target positions in rising order, with the readings at each as the file has them.
-fn targets(mut readings: Vec<(f64, usize, f64)>) -> Vec<TargetRuns> {
+fn targets(mut readings: Vec<Reading>) -> Vec<TargetRuns> {
     readings.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut targets: Vec<TargetRuns> = Vec::new();
     for (at, side, deviation) in readings {
@@ -142,8 +145,7 @@ pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
     // In mm or rad; deviations are shown in um or arcsec.
     let coherent = |unit: Unit, number: f64| unit.convert(number, LengthUnit::Millimetre);
     let shown = |deviation: f64| if is_rotary { 3600.0 * deviation.to_degrees() } else { 1e3 * deviation };
-    // Position, direction and deviation of each reading.
-    let mut lines: Vec<(String, Vec<(f64, usize, f64)>)> = Vec::new();
+    let mut lines: Vec<(String, Vec<Reading>)> = Vec::new();
     for record in records {
         let record = record?;
         let failed = |reason: String| {
