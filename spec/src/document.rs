@@ -130,10 +130,9 @@ impl Document {
                 Some(name) if is_table && is_duplicate => {
                     format!("write `[[{name}]]` for an array of tables, or merge the two tables")
                 }
-                Some(",") if let Some(number) = with_point(text, span.start) => {
-                    format!("write a decimal point: `{number}`")
-                }
-                _ => "expected TOML: `key = value`, `[table]`".to_owned(),
+                Some(",") => with_point(text, span.start)
+                    .map_or_else(|| TOML.to_owned(), |number| format!("write a decimal point: `{number}`")),
+                _ => TOML.to_owned(),
             };
             self.found.borrow_mut().push(Diagnostic::new(span, message).help(help));
         }
@@ -444,6 +443,9 @@ impl<'d> Item<'d> {
         values.into_iter().collect::<Option<Vec<f64>>>()?.try_into().ok()
     }
 }
+
+/// What a document is written in.
+const TOML: &str = "expected TOML: `key = value`, `[table]`";
 
 /// Returns the number around a comma between digits, with a point.
 fn with_point(text: &str, comma: usize) -> Option<String> {

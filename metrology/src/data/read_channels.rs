@@ -199,5 +199,8 @@ pub(super) fn unit(section: &Section<'_>, dimension: Dimension) -> Option<f64> {
         let help = found.help.unwrap_or_else(|| "write `mm`, `deg`, `kg` …".to_owned());
         section.document.mistake(Diagnostic::new(item.span(), found.message).help(help));
     }
+    if factor.is_some_and(|factor| factor <= 0.0) {
+        return item.refuse("the size of a unit must be positive", "write the size of one: `360 deg/4096`");
+    }
     factor
 }

@@ -132,10 +132,14 @@ impl<'p> Parser<'p> {
                 Err(Diagnostic::new(self.here(), format!("the unit `{name}` must follow a number"))
                     .help("only numbers take a unit; names already have theirs"))
             }
-            Token::Sign(',') if let Some(number) = self.with_point() => Err(self
-                .unexpected("an operator or the end")
-                .help(format!("write a decimal point: `{number}`"))),
-            _ => Err(self.unexpected("an operator or the end")),
+            _ => {
+                let mistake = self.unexpected("an operator or the end");
+                let number = self.with_point().filter(|_| self.peek() == Token::Sign(','));
+                Err(match number {
+                    Some(number) => mistake.help(format!("write a decimal point: `{number}`")),
+                    None => mistake,
+                })
+            }
         }
     }
 
