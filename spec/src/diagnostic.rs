@@ -145,6 +145,14 @@ impl Diagnostics {
     }
 }
 
+/// Returns what to write for a number with a comma, which three digits behind it leave open.
+pub(crate) fn decimal(whole: &str, part: &str) -> String {
+    match part.len() {
+        3 if whole != "0" => format!("write `{whole}{part}`, or a decimal point: `{whole}.{part}`"),
+        _ => format!("write a decimal point: `{whole}.{part}`"),
+    }
+}
+
 /// Returns the known name most similar to a word, if any is similar enough.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // A single edit always counts as similar, even in short words.

@@ -13,7 +13,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use crate::bounded::{Bounded, Contents, UnreadableFile, not_text};
-use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest_after, suggestion};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span, decimal, nearest_after, suggestion};
 use crate::expr::{
     Allowed, Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, LocatedText, Scope, TextLocation,
     parse_expression,
@@ -130,8 +130,7 @@ impl Document {
                 Some(name) if is_table && is_duplicate => {
                     format!("write `[[{name}]]` for an array of tables, or merge the two tables")
                 }
-                Some(",") => with_point(text, span.start)
-                    .map_or_else(|| TOML.to_owned(), |number| format!("write a decimal point: `{number}`")),
+                Some(",") => with_point(text, span.start).unwrap_or_else(|| TOML.to_owned()),
                 _ => TOML.to_owned(),
             };
             self.found.borrow_mut().push(Diagnostic::new(span, message).help(help));
@@ -444,16 +443,16 @@ impl<'d> Item<'d> {
     }
 }
 
-/// What a document is written in.
+/// Help for a line that is not TOML.
 const TOML: &str = "expected TOML: `key = value`, `[table]`";
 
-/// Returns the number around a comma between digits, with a point.
+/// Returns what to write for the number around a comma.
 fn with_point(text: &str, comma: usize) -> Option<String> {
     let [before, after] = [text.get(..comma)?, text.get(comma + 1..)?];
     let is_digit = |c: char| c.is_ascii_digit();
     let whole = &before[before.rfind(|c| !is_digit(c)).map_or(0, |at| at + 1)..];
     let part = &after[..after.find(|c| !is_digit(c)).unwrap_or(after.len())];
-    (!whole.is_empty() && !part.is_empty()).then(|| format!("{whole}.{part}"))
+    (!whole.is_empty() && !part.is_empty()).then(|| decimal(whole, part))
 }
 
 /// Keys that every table may have for human readers only.

@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Span, listed, nearest};
 use crate::document::{Document, Item};
 use crate::expr::{
     Allowed, Dimension, Entry, FUNCTION_NAMES, LocatedText, Scope, TextLocation, Token, UNIT_NAMES,
-    parse_expression, tokens, unit_help,
+    parse_expression, tokens, unit_help, unit_spelling,
 };
 
 /// Returns the value of the number, or of the constant expression, at `span` of the document's
@@ -69,10 +69,8 @@ fn unknown_word(word: &str, span: Span) -> Option<Diagnostic> {
     if known.contains(&word) {
         return None;
     }
-    let help = match nearest(word, FUNCTION_NAMES) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => unit_help(word),
-    };
+    let function = || nearest(word, FUNCTION_NAMES).map(|near| format!("did you mean `{near}`?"));
+    let help = unit_spelling(word).or_else(function).unwrap_or_else(|| unit_help(word));
     let message = format!("`{}` is neither a unit nor a function", word.escape_debug());
     Some(Diagnostic::new(span, message).label("unknown here").help(help))
 }

@@ -21,6 +21,7 @@ class = "0.2 m"
 double = "0.05 m"
 sine = "0.01 m"
 arguments_pose = "0.02 m"
+arguments_array_6 = 0
 ARGUMENTS_OK = 0
 inputs_are_in_range = 0
 [inputs]
@@ -34,7 +35,7 @@ name = "second"
 variable = { name = "undefined", kind = "revolute", limits = [-1, 1] }
 transform = "Rx(undefined*Math) Ty(class) Rz(0.4)"
 [tool]
-transform = "Tx(-function^1.5/abs(class)^0.5) Ty(double + sin(0.3)*sine + arguments_pose*(1 + ARGUMENTS_OK + inputs_are_in_range))"
+transform = "Tx(-function^1.5/abs(class)^0.5) Ty(double + sin(0.3)*sine + arguments_pose*(1 + ARGUMENTS_OK + inputs_are_in_range + arguments_array_6))"
 [[source]]
 name = "repeatable"
 class = "repeatable"

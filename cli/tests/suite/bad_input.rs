@@ -93,6 +93,9 @@ fn usage() {
         &["--map <FILE>", "`abbe doctor SPEC DATA -o map.toml` proposes a map"],
     );
     refused(&["analyze", "pps", "--tolerance", "0,3mm"], &["write a decimal point: `0.3`"]);
+    refused(&["analyze", "pps", "--tolerance", "1,000um"], &["write `1000`, or a decimal point: `1.000`"]);
+    refused(&["analyze", "pps", "--tolerance", "5mil"], &["1 mil is `0.001 inch`"]);
+    refused(&["analyze", "pps", "--tolerance", "5micron"], &["write `um`"]);
     let unknown = abbe(&["generate", "pps", "--zzz"]).stderr;
     assert!(unknown.contains("unexpected argument '--zzz'") && !unknown.contains("-- --zzz"), "{unknown}");
     for lang in ["PYTHON", "JS"] {

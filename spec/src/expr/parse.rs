@@ -18,7 +18,7 @@ use super::{
     Allowed, Binary, Dimension, Entry, Expression, FUNCTION_NAMES, Function, LocatedText, Scope,
     TextLocation, Token, Unit, tokens, unit_help,
 };
-use crate::diagnostic::{Diagnostic, Span, suggestion};
+use crate::diagnostic::{Diagnostic, Span, decimal, suggestion};
 
 /// Maximum nesting depth of parentheses, functions, signs and powers.
 const DEPTH: usize = 100;
@@ -134,22 +134,22 @@ impl<'p> Parser<'p> {
             }
             _ => {
                 let mistake = self.unexpected("an operator or the end");
-                let number = self.with_point().filter(|_| self.peek() == Token::Sign(','));
-                Err(match number {
-                    Some(number) => mistake.help(format!("write a decimal point: `{number}`")),
+                let help = self.with_point().filter(|_| self.peek() == Token::Sign(','));
+                Err(match help {
+                    Some(help) => mistake.help(help),
                     None => mistake,
                 })
             }
         }
     }
 
-    /// Returns the number around a comma, with a point.
+    /// Returns what to write for the number around a comma.
     fn with_point(&self) -> Option<String> {
         let token = |at: usize| self.tokens.get(at).map(|token| token.0);
         let before = self.at.checked_sub(1)?;
         let are_numbers = [before, self.at + 1].iter().all(|at| matches!(token(*at), Some(Token::Number(_))));
         let part = |at: usize| self.text.get(self.tokens[at].1.clone()).unwrap_or_default();
-        are_numbers.then(|| format!("{}.{}", part(before), part(self.at + 1)))
+        are_numbers.then(|| decimal(part(before), part(self.at + 1)))
     }
 
     pub(crate) fn unexpected(&self, expected: &str) -> Diagnostic {

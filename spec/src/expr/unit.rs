@@ -57,9 +57,19 @@ const SPELLINGS: [(&[&str], &str); 20] = [
 /// Names of temperatures that are no differences.
 const CELSIUS: [&str; 4] = ["degC", "C", "celsius", "Celsius"];
 
+/// Returns what to write for a spelling that others use for a unit.
+pub(crate) fn unit_spelling(word: &str) -> Option<String> {
+    if CELSIUS.contains(&word) {
+        return Some(
+            "temperatures are in `K`: a difference of 1 °C is `1 K`, and 20 °C are `293.15 K`".to_owned(),
+        );
+    }
+    let (_, unit) = SPELLINGS.iter().find(|(words, _)| words.contains(&word))?;
+    Some(if unit.contains(' ') { format!("1 {word} is `{unit}`") } else { format!("write `{unit}`") })
+}
+
 /// Returns what to write for a word that is no unit: nothing that has another size.
 pub(crate) fn unit_help(word: &str) -> String {
-    let spelled = SPELLINGS.iter().find(|(words, _)| words.contains(&word)).map(|(_, unit)| *unit);
     let is_one_case = word == word.to_lowercase() || word == word.to_uppercase();
     let is_long = |name: &&str| is_one_case && name.len() > 2 && word.len() > 2;
     let in_capitals = || UNIT_NAMES.into_iter().filter(is_long).find(|name| name.eq_ignore_ascii_case(word));
@@ -68,17 +78,10 @@ pub(crate) fn unit_help(word: &str) -> String {
     let is_other = |name: &&str| rest().eq(name.chars()) || rest().eq(name.chars().skip(1));
     let is_name = |name: &&str| (name.len() > 3 || matches!(*name, "deg" | "rad")) && word.len() > 3;
     let near = || nearest(word, UNIT_NAMES.into_iter().filter(|name| is_name(name) && !is_other(name)));
-    match spelled {
-        Some(unit) if unit.contains(' ') => format!("1 {word} is `{unit}`"),
-        Some(unit) => format!("write `{unit}`"),
-        None if CELSIUS.contains(&word) => {
-            "temperatures are in `K`: a difference of 1 °C is `1 K`, and 20 °C are `293.15 K`".to_owned()
-        }
-        None => match in_capitals().or_else(near) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("units: {}", UNIT_NAMES.join(" ")),
-        },
-    }
+    unit_spelling(word).unwrap_or_else(|| match in_capitals().or_else(near) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("units: {}", UNIT_NAMES.join(" ")),
+    })
 }
 
 impl Unit {

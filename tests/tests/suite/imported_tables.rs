@@ -438,6 +438,15 @@ fn rows_of_coupled_joints() {
         assert_same(&arm, matrix, rows, 1000.0);
     }
     let format = Format::Table { convention: DhConvention::Standard, units: IN_MM };
+    // A row of numbers that another row names is no fixed one.
+    let arm =
+        imported("theta,d,a,alpha\n0,400,25,90\nq2 - q1,0,560,0\n", DhConvention::Standard, IN_MM, false);
+    let rows = |q: &[f64]| vec![[q[0], 400.0, 25.0, FRAC_PI_2], [q[1] - q[0], 0.0, 560.0, 0.0]];
+    assert_same(&arm, standard, rows, 1000.0);
+    let slide = "theta,d,a,alpha\n0,d1,0,90\nq2 - d1,0,560,0\n";
+    let import = Import { file: "t.csv".into(), format: format.clone(), round_angles: false };
+    let refused = import.read(Document::new("t.csv", slide), &mut ()).unwrap_err().to_string();
+    assert!(refused.contains("`d1` moves a joint of the other kind"), "{refused}");
     for (cell, part) in [("q2 - q3", "`q3` is no variable of a row above"), ("q1 q2", "expected a number")] {
         let text = format!("theta,d,a,alpha\nq1,0,0,90\n{cell},0,560,0\n");
         let import = Import { file: "t.csv".into(), format: format.clone(), round_angles: false };

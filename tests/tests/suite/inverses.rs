@@ -425,6 +425,12 @@ fn random_robot(structure: Structure, seed: u64) -> String {
             (Structure::Coupled, 4) => "q4 + q3".to_owned(),
             (Structure::Coupled, 5) => "-q5 + q4 - q3".to_owned(),
             (Structure::Gantry, 2 | 3) => format!("q{i} + q{}", i - 2),
+            // Every fifth robot of other structures has coupled joints as well.
+            (Structure::WristAtBase | Structure::Parallel | Structure::ParallelBackwards, 2 | 4)
+                if seed % 5 == 4 =>
+            {
+                format!("q{i} - q{}", i - 1)
+            }
             _ => format!("q{i}"),
         };
         let (kind, motion) = if is_slide { ("prismatic", "Tz") } else { ("revolute", "Rz") };

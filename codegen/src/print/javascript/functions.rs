@@ -25,8 +25,10 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
             let margin = ["margin", "`cos ρ`; where it is 0, rows 4–6 are not finite."];
             let behind = signature.has_margin(routines.description.orientation).then_some(margin);
             documentation(writer, &routines.description, signature, behind);
-            writer.documentation_line("");
-            writer.documentation(THROWS);
+            if routines.exports(routine) {
+                writer.documentation_line("");
+                writer.documentation(THROWS);
+            }
         }
         None => writer.documentation(routine.documentation),
     }

@@ -64,6 +64,13 @@ impl StructuredText {
         reserved.extend(routines.tables.iter().map(|table| format!(" {0}_0 {0}_1", table.name)));
         let of_sums = |name| format!(" {name}_CONSTANTS {name}_ENTRIES {name}_TERMS {name}_FACTORS");
         reserved.extend(routines.sums.iter().map(|sums| of_sums(&sums.name)));
+        // Types of arrays have names such as `arm_array_6`.
+        let types = ["array", "counts"].map(|kind| format!("{prefix}_{kind}_").to_lowercase());
+        let own = spec.variables.iter().chain(&spec.passive).map(|one| &one.name);
+        let own = own.chain(spec.parameters.iter().map(|one| &one.name));
+        let own = own.chain(spec.inputs.iter().map(|one| &one.name));
+        let is_type = |name: &&String| types.iter().any(|kind| name.to_lowercase().starts_with(kind));
+        reserved.extend(own.filter(is_type).map(|name| format!(" {name}")));
         Self { prefix, tables, reserved }
     }
 

@@ -84,9 +84,12 @@ pub(super) fn read(text: &Text, cells: &Cells<'_>, notes: &mut dyn Notes) -> Vec
     }
     let motions = || joints.iter().filter_map(|joint| joint.motion.as_ref());
     let is_named = motions().any(|motion| motion.is_named) && document.mistakes() == 0;
+    let used: Vec<String> = motions().filter_map(|motion| Some(motion.with.as_ref()?.0.clone())).collect();
     for joint in joints.iter_mut().filter(|_| is_named) {
         let Joint { name, motion, numbers } = joint;
-        if let Some(JointMotion { offset, .. }) = motion.take_if(|motion| !motion.is_stated) {
+        if let Some(JointMotion { offset, .. }) =
+            motion.take_if(|motion| !motion.is_stated && !used.contains(&motion.variable))
+        {
             numbers[0] = offset;
             notes.note(&format!(
                 "`{name}` is fixed: its row has numbers only, and others name their variables"
@@ -128,11 +131,19 @@ fn joint(i: usize, row: &[Span], earlier: &[Joint], cells: &Cells<'_>) -> Option
         earlier.iter().any(|joint| joint.motion.as_ref().is_some_and(|motion| motion.variable == name))
     };
     let mut with = None;
-    for variables in [&mut theta.variables, &mut d.variables] {
+    for (quantity, variables) in [(Quantity::Theta, &mut theta.variables), (Quantity::D, &mut d.variables)] {
         // `q3 - q2`: the variable of an earlier row turns this one, too.
         let shared =
             variables.iter().position(|(name, ..)| is_earlier(name)).filter(|_| variables.len() == 2);
-        with = shared.map(|at| variables.remove(at)).map(|(name, _, sign)| (name, sign)).or(with);
+        if let Some((name, span, sign)) = shared.map(|at| variables.remove(at)) {
+            let is_angle = quantity == Quantity::Theta;
+            let motions = earlier.iter().filter_map(|joint| joint.motion.as_ref());
+            if motions.filter(|motion| motion.variable == name).any(|motion| motion.prismatic == is_angle) {
+                let help = "angles take angles, and lengths take lengths";
+                return document.refuse(span, format!("`{name}` moves a joint of the other kind"), help);
+            }
+            with = Some((name, sign));
+        }
         if let [_, (name, span, _), ..] = &variables[..] {
             let mistake = Diagnostic::new(span.clone(), format!("`{name}` is no variable of a row above"));
             let help = "a row has one variable of its own, and may add one of a row above: `q3 - q2`";
