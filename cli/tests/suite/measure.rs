@@ -271,3 +271,31 @@ fn a_zero_and_a_rotation_vector_are_read_as_they_are_written() {
     // decimetres.
     assert!(norm["rms"].as_f64().unwrap() < 1.0, "{norm}");
 }
+
+/// Counts of an encoder are angles, whichever way their size is written.
+#[test]
+fn counts_have_a_size() {
+    let folder = tempdir().unwrap();
+    let spec = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n\n[[frame]]\nname = \"a\"\n\
+        variable = { name = \"q1\", kind = \"revolute\", limits = [-4, 4] }\ntransform = \"Rz(q1) Tx(400)\"\n";
+    let spec = write(folder.path(), "arm.toml", spec);
+    let row = |count: i32| {
+        let angle = std::f64::consts::TAU * f64::from(count) / 4096.0;
+        format!("{count},{:.9},{:.9},0\n", 400.0 * angle.cos(), 400.0 * angle.sin())
+    };
+    let rows: String = (0..20).map(|k| row(-1900 + 190 * k)).collect();
+    let data = write(folder.path(), "rows.csv", &format!("a,X,Y,Z\n{rows}"));
+    let largest = |unit: &str| {
+        let map = format!(
+            "[data]\nuncertainty = \"0.01 mm\"\nbase = \"exact\"\nplacement = \"exact\"\n\n[joints]\n\
+             q1 = {{ column = \"a\", unit = \"{unit}\" }}\n\n[point]\ncolumns = [\"X\", \"Y\", \"Z\"]\nunit = \"mm\"\n"
+        );
+        let map = write(folder.path(), "map.toml", &map);
+        let report = json(&["measure", path(&spec), path(&data), "--map", path(&map), "--json"]);
+        report["errors"][3]["max"].as_f64().unwrap_or_else(|| panic!("{report}"))
+    };
+    for unit in ["360 deg/4096", "0.087890625 deg", "deg/11.37777777777778", "360deg/4096"] {
+        assert!(largest(unit) < 1e-6, "{unit}: {}", largest(unit));
+    }
+    assert!(largest("0.08789 deg") > 1e-3);
+}

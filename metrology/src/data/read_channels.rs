@@ -185,12 +185,12 @@ pub(super) fn unit(section: &Section<'_>, dimension: Dimension) -> Option<f64> {
     }
     let is_size = name.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '.');
     let text = if is_size { name.clone() } else { format!("1 {name}") };
+    let size = match dimension {
+        Dimension::LENGTH => "write the size of one: `unit = \"5 mm/2000\"`",
+        _ => "write the size of one: `unit = \"360 deg/4096\"`",
+    };
     if COUNTS.contains(&name.trim().to_lowercase().trim_end_matches('s')) {
-        let help = match dimension {
-            Dimension::LENGTH => "write the size of one: `unit = \"5 mm/2000\"`",
-            _ => "write the size of one: `unit = \"360 deg/4096\"`",
-        };
-        return item.refuse(format!("the size of a {} is unknown", name.trim().escape_debug()), help);
+        return item.refuse(format!("the size of `{}` is unknown", name.trim().escape_debug()), size);
     }
     let line = Document::new("", text.as_str());
     let what = format!("the unit `{}`", name.escape_debug());
@@ -200,7 +200,7 @@ pub(super) fn unit(section: &Section<'_>, dimension: Dimension) -> Option<f64> {
         section.document.mistake(Diagnostic::new(item.span(), found.message).help(help));
     }
     if factor.is_some_and(|factor| factor <= 0.0) {
-        return item.refuse("the size of a unit must be positive", "write the size of one: `360 deg/4096`");
+        return item.refuse("the size of a unit must be positive", size);
     }
     factor
 }
