@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use abbe_metrology::compensate::options::TOLERANCE;
+use abbe_metrology::compensate::program::{Program, read_frame};
 use abbe_metrology::compensate::{self, Report, check_poses};
 use abbe_metrology::data::{Csv, Data, Map};
 use abbe_report::views;
@@ -18,13 +19,19 @@ use crate::{Console, Failure, Result};
 #[command(after_help = after_help!(
     "  abbe compensate found.toml plan.csv --map found.map.toml --out commands.csv
   abbe compensate found.toml plan.csv --map found.map.toml --tolerance 0.01mm --json
+  abbe compensate found.toml part.mod --frame \"Tx(500) Rz(90deg)\" -o corrected.mod
 ", "some rows are not compensated within the tolerance"))]
 pub(crate) struct Compensate {
     #[command(flatten)]
     subject: Subject,
-    /// Joint commands: a CSV file with the joint and input columns of the map
+    /// Joint commands: a CSV file with the joint and input columns of the map; or the program of a
+    /// robot (RAPID, KRL, TP as `.ls`, URScript, Mecademic), whose positions are corrected in place
     #[arg(value_hint = ValueHint::FilePath)]
     data: PathBuf,
+    /// Pose in F_0 of the frame in which a program has its positions (work object, user frame,
+    /// $BASE), such as "Tx(500) Rz(90deg)". [default: F_0]
+    #[arg(long, value_name = "TRANSFORM", allow_hyphen_values = true, conflicts_with = "poses")]
+    frame: Option<String>,
     /// Map (TOML) that describes the columns, or name of a shipped map. [default: columns named as
     /// the variables and inputs of the spec, in its length unit and in rad]
     #[arg(long, value_name = "FILE")]
@@ -41,7 +48,8 @@ pub(crate) struct Compensate {
     /// 1m. [default: the position has priority]
     #[arg(long, value_name = "LENGTH")]
     weight: Option<String>,
-    /// Write the corrected commands and their remaining errors to this CSV file
+    /// Write the corrected commands and their remaining errors to this CSV file; of a program, the
+    /// corrected program
     #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -53,25 +61,36 @@ pub(crate) struct Compensate {
 pub(crate) fn run(arguments: &Compensate) -> Result<Outcome> {
     arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
-    let mut map = map(arguments, &machine.spec)?;
+    let program = Program::read(&arguments.data)?;
+    let frame = arguments.frame.as_ref().map(|text| read_frame(text, machine.spec.length)).transpose()?;
+    let mut map = match (&program, &arguments.map) {
+        (Some(program), None) => program.map(&machine.spec),
+        _ => map(arguments, &machine.spec)?,
+    };
     arguments.page.dated.date(&mut map.record);
     let tolerance = length("--tolerance", &arguments.tolerance, &machine.spec)?;
     let weight = arguments.weight.as_ref().map(|text| length("--weight", text, &machine.spec)).transpose()?;
-    let data = match arguments.poses {
-        true => Data::read_wanted(&arguments.data, &map)?,
-        false => Data::read_commanded(&arguments.data, &map)?,
+    let mut console = Console::default();
+    let evaluator = machine.evaluator(true);
+    let data = match &program {
+        Some(program) => {
+            program.commands((&*evaluator, &machine.spec), &map, frame.as_ref(), &mut console)?
+        }
+        None if arguments.poses => Data::read_wanted(&arguments.data, &map)?,
+        None => Data::read_commanded(&arguments.data, &map)?,
     };
     let job = compensate::Compensate { machine, map, data, poses: arguments.poses, tolerance, weight };
     let mut outputs = Outputs::new(&job, arguments.common.writing.force);
     let out = arguments.out.as_deref();
     let failed = |error: io::Error| cannot_write(out.unwrap_or(Path::new("-")), &error);
-    let commands = outputs.wanted(out)?.map(|file| Csv::new(file, &job.heading()));
+    let mut written = outputs.wanted(out)?;
+    let commands = written.take_if(|_| program.is_none()).map(|file| Csv::new(file, &job.heading()));
     let mut commands = commands.transpose().map_err(failed)?;
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let mut rows = Vec::new();
-    // JSON and figures need all rows at once; the file of commands is written row by row.
-    let keep = arguments.common.showing.json || page.is_some();
-    let report = job.for_each_row(&mut Console::default(), |row| {
+    // JSON, figures and programs need all rows at once; a file of commands is written row by row.
+    let keep = arguments.common.showing.json || page.is_some() || program.is_some();
+    let report = job.for_each_row(&mut console, |row| {
         if let Some(csv) = &mut commands {
             csv.row(job.label(&row), &row.numbers(&job.map)).map_err(failed)?;
         }
@@ -81,8 +100,13 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome> {
         Ok::<_, Failure>(())
     })?;
     let report = Report { rows, ..report };
-    let commands = commands.map(Csv::finish).transpose().map_err(failed)?;
-    let evaluator = job.machine.evaluator(true);
+    let commands = match (&program, written) {
+        (Some(program), Some(file)) => {
+            let text = program.corrected(&report.rows, &*evaluator, &job.map, frame.as_ref())?;
+            Some(file.fill(&text)?)
+        }
+        _ => commands.map(Csv::finish).transpose().map_err(failed)?,
+    };
     let document = || views::compensation(&job.machine.spec, evaluator.description(), &job.map, &report);
     let page = page.map(|file| {
         let map = arguments.map.as_ref().map(|_| &job.map);

@@ -48,6 +48,7 @@ options! {
     DISABLE_NAME = "disable", "NAME";
     ENABLE = "enable";
     FOLD = "fold";
+    FRAME = "frame";
     FROM = "from";
     FULL = "full";
     MAP = "map";

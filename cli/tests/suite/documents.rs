@@ -33,6 +33,7 @@ fn what_they_show_is_what_is_printed() {
             let first = block.lines().next().unwrap_or_default();
             let name = match language {
                 "toml" | "csv" => first.strip_prefix("# "),
+                "rapid" => first.strip_prefix("! "),
                 "xml" => first.strip_prefix("<!-- ").and_then(|line| line.strip_suffix(" -->")),
                 _ => None,
             };

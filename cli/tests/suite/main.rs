@@ -34,6 +34,7 @@ mod pages;
 mod paths;
 mod positioning;
 #[cfg(unix)]
+mod programs;
 mod progress;
 mod readme;
 mod report;

@@ -1,6 +1,7 @@
 //! Corrected joint commands that bring the real tool to the pose of the ideal one.
 
 pub mod options;
+pub mod program;
 mod rows;
 
 use abbe_interpreter::Interpreter;

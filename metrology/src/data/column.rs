@@ -13,6 +13,13 @@ pub struct Column {
     pub(super) span: Option<Span>,
 }
 
+impl Column {
+    /// Returns columns without names, of numbers that are in no table.
+    pub(crate) fn unnamed<const N: usize>() -> Box<[Self; N]> {
+        Box::new(std::array::from_fn(|_| Self { name: String::new(), span: None }))
+    }
+}
+
 /// Linear scale of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
@@ -27,12 +34,12 @@ impl Scale {
     pub const COHERENT: Self = Self { one: 1.0, zero: 0.0 };
 
     /// Converts a number of the column to a value.
-    pub(super) fn value(self, number: f64) -> f64 {
+    pub(crate) fn value(self, number: f64) -> f64 {
         self.one * number + self.zero
     }
 
     /// Converts a value to a number of the column.
-    pub(super) fn number(self, value: f64) -> f64 {
+    pub(crate) fn number(self, value: f64) -> f64 {
         (value - self.zero) / self.one
     }
 }

@@ -146,7 +146,7 @@ impl Map {
             joints: joints.collect(),
             command_pose: None,
             inputs: inputs.collect(),
-            layout: Layout::Point([(); 3].map(|()| column("")), 1.0),
+            layout: Layout::Point(*Column::unnamed(), 1.0),
             group: None,
             direction: None,
             time: None,
@@ -363,7 +363,7 @@ impl Map {
     }
 
     /// Returns the placeholder of a measurement, in a setup if the map has a column for it.
-    pub(super) fn unmeasured(&self, setup: Option<f64>) -> Measurement {
+    pub(crate) fn unmeasured(&self, setup: Option<f64>) -> Measurement {
         match &self.layout {
             Layout::Pose(..) => Measurement::Pose(Box::new(Pose::IDENTITY)),
             Layout::Instruments(all) => Measurement::Readings(all.unread(&all.read_in(setup))),

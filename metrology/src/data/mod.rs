@@ -59,5 +59,6 @@ pub(crate) use turn::EULER_ORDERS;
 pub use turn::{Order, Turn};
 
 pub(crate) use rotation::{
-    Rotation, from_euler, from_quaternion, from_rotation_vector, is_rotation, quaternion, to_numbers,
+    Rotation, from_euler, from_numbers, from_quaternion, from_rotation_vector, is_rotation, quaternion,
+    to_numbers,
 };

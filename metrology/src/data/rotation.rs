@@ -8,7 +8,7 @@ use super::turn::{Order, Turn};
 pub(crate) type Rotation = [[f64; 3]; 3];
 
 /// Converts numbers to a rotation, or returns the reason of the failure.
-pub(super) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, String> {
+pub(crate) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, String> {
     match turn {
         Turn::Quaternion(_, order) => {
             let [a, b, c, d] = numbers.try_into().unwrap_or([0.0; 4]);

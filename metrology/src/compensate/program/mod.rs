@@ -1,0 +1,368 @@
+//! Programs of robots: their positions and joint targets are read, and written corrected. All other
+//! text stays as it is.
+
+mod languages;
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use abbe::analysis::{InverseKinematics, sampling};
+use abbe::identify::Observation;
+use abbe::{LengthUnit, Manipulator, Pose, Variable, VariableKind};
+use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use abbe_spec::bounded::{Bounded, UnreadableFile};
+use abbe_spec::option::FRAME;
+use abbe_study::{Notes, Result, mistake, number};
+use regex_lite::Captures;
+
+use super::Row;
+use crate::data::{Channel, Data, Map, Scale, Unusable, from_numbers, to_numbers};
+use languages::{LANGUAGES, Language};
+
+/// Number of joints that every language can name.
+const JOINTS: usize = 6;
+/// Largest size of a program.
+const LARGEST: u64 = 1 << 26;
+/// Decimals of angles in rad, and of the numbers of quaternions.
+const DIGITS_OF_TURNS: f64 = 8.0;
+/// Decimals of lengths in m.
+const DIGITS_OF_METRES: f64 = 7.0;
+/// Number of lines that a note names.
+const NAMED: usize = 8;
+
+/// A program of a robot, with its positions and joint targets.
+pub struct Program {
+    path: PathBuf,
+    text: String,
+    /// Each byte of the file is a character.
+    is_latin: bool,
+    language: &'static Language,
+    points: Vec<Point>,
+    /// Lines of positions that are relative or incomplete.
+    relative: Vec<usize>,
+    /// Line that sets the frame of positions.
+    frame_line: Option<usize>,
+}
+
+/// A position or a joint target: its numbers and their places in the text.
+struct Point {
+    line: u64,
+    is_pose: bool,
+    numbers: Vec<(Range<usize>, f64)>,
+}
+
+/// Source of a joint.
+enum JointChannel {
+    /// A number of joint targets, by its place, with its scale.
+    Number(usize, Scale),
+    /// A constant.
+    Fixed(f64),
+}
+
+/// Returns the decimals of a number in a unit that are those of the coherent unit.
+fn decimals(coherent: f64, unit: f64) -> usize {
+    (coherent + unit.abs().log10()).round().max(0.0) as usize
+}
+
+/// Reads a transform of a spec, such as `Tx(500) Rz(90deg)`: the pose in `F_0` of the frame in which
+/// a program states its positions.
+///
+/// # Errors
+///
+/// The text is not a transform, or has a variable.
+pub fn read_frame(transform: &str, length: LengthUnit) -> Result<Pose> {
+    let text = format!(
+        "manipulator = {{ name = \"frame\", length = \"{}\" }}\n[[frame]]\nname = \"frame\"\ntransform = {:?}\n",
+        length.symbol(),
+        transform
+    );
+    let frame = Interpreter::new(Spec::parse(&FRAME.to_string(), &text)?);
+    frame.pose(&[], &[]).map_err(|error| mistake::whole(FRAME, &error))
+}
+
+impl Program {
+    /// Reads a program; `None` if the ending of the name is not that of one.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be read, or has no positions.
+    pub fn read(path: &Path) -> Result<Option<Self>> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        if !Language::endings().any(|known| ending.eq_ignore_ascii_case(known)) {
+            return Ok(None);
+        }
+        let bytes = Bounded::read_all(path, LARGEST).map_err(|error| {
+            let UnreadableFile { message, help } =
+                UnreadableFile::from_error(&error, "give the path of a file that can be read");
+            mistake::with_help(path.display(), message, help)
+        })?;
+        let (text, is_latin) = match String::from_utf8(bytes) {
+            Ok(text) => (text, false),
+            Err(error) => (error.into_bytes().into_iter().map(char::from).collect(), true),
+        };
+        let language = Language::of(&ending, &text).and_then(|known| Some((known, known.patterns()?)));
+        let Some((language, patterns)) = language else { return Ok(None) };
+        let starts: Vec<usize> =
+            std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        let line = |at: usize| starts.partition_point(|start| *start <= at);
+        // Returns the start of what is neither in a comment nor a frame, tool or step.
+        let start = |found: &Captures<'_>| {
+            let at = found.get(0).map_or(0, |all| all.start());
+            let before = &text[starts[line(at) - 1]..at];
+            let is_point = !before.contains(language.comment) && !patterns.elsewhere.is_match(before);
+            is_point.then_some(at)
+        };
+        let mut points: Vec<Point> = Vec::new();
+        for (pattern, is_pose) in [(&patterns.pose, true), (&patterns.joints, false)] {
+            points.extend(pattern.captures_iter(&text).filter_map(|found| {
+                let line = line(start(&found)?) as u64;
+                let number = |text: &str| text.parse().unwrap_or(f64::NAN);
+                let numbers = found.iter().skip(1).flatten().map(|one| (one.range(), number(one.as_str())));
+                Some(Point { line, is_pose, numbers: numbers.collect() })
+            }));
+        }
+        let place = |point: &Point| point.numbers[0].0.start;
+        points.sort_by_key(place);
+        if points.is_empty() {
+            let names: Vec<&str> = LANGUAGES.iter().map(|language| language.name).collect();
+            let message = format!("this program in {} has no positions", language.name);
+            let help = format!("positions must be numbers in the file; known are {}", names.join(", "));
+            return Err(mistake::with_help(path.display(), message, help));
+        }
+        let is_read = |found: &Captures<'_>| {
+            let number = found.get(1).map(|number| number.start());
+            number.is_some_and(|at| points.binary_search_by_key(&at, place).is_ok())
+        };
+        let relative = patterns.relative.captures_iter(&text).filter(|found| !is_read(found));
+        let mut relative: Vec<usize> = relative.filter_map(|found| start(&found)).map(line).collect();
+        relative.dedup();
+        let frame_line = patterns.frame.captures_iter(&text).find_map(|found| {
+            let at = found.get(0)?.start();
+            (!text[starts[line(at) - 1]..at].contains(language.comment)).then(|| line(at))
+        });
+        Ok(Some(Self { path: path.to_owned(), is_latin, language, points, relative, frame_line, text }))
+    }
+
+    /// Returns the map of the joints of a machine: its variables are the joints of the program, in
+    /// order and in its units.
+    pub fn map(&self, spec: &Spec) -> Map {
+        let mut map = Map::from_names(&[], spec);
+        let scale = |kind| match kind {
+            VariableKind::Revolute => self.language.radians,
+            VariableKind::Prismatic => self.language.metres / spec.length.in_metres(),
+        };
+        for (i, (channel, variable)) in map.joints.iter_mut().zip(&spec.variables).enumerate() {
+            if let Channel::Column(column, one) = channel {
+                column.name = format!("{}{}", self.language.joint, i + 1);
+                *one = Scale { one: scale(variable.kind), zero: 0.0 };
+            }
+        }
+        map
+    }
+
+    /// Returns the commands of the program: a joint target as `map` has it, and for a position the
+    /// nominal joints nearest to those before, from home. `frame` is the pose in `F_0` of the frame
+    /// of positions.
+    ///
+    /// # Errors
+    ///
+    /// The map has a joint or an input in a column that the program does not have, or no position
+    /// can be used.
+    pub fn commands(
+        &self,
+        (machine, spec): (&dyn Manipulator, &Spec),
+        map: &Map,
+        frame: Option<&Pose>,
+        notes: &mut dyn Notes,
+    ) -> Result<Data> {
+        let description = machine.description();
+        let inverse = InverseKinematics::new(machine, &sampling::nominal_parameters(description));
+        let inverse = match inverse {
+            Err(reason) if self.points.iter().any(|point| point.is_pose) => {
+                let help = "write joint targets in place of positions";
+                return Err(mistake::with_help(&description.name, reason, help));
+            }
+            inverse => inverse.ok(),
+        };
+        let u = map.inputs.iter().map(|channel| match channel {
+            Channel::Fixed(value) => Ok(*value),
+            _ => {
+                Err(mistake::with_help(map.path(), "a program has no columns of inputs", "give their values"))
+            }
+        });
+        let u: Vec<f64> = u.collect::<Result<_>>()?;
+        let channels = self.channels(map)?;
+        let mut last = sampling::home(description);
+        let mut data =
+            Data { file: self.path.display().to_string(), files: vec![self.path.clone()], ..Data::default() };
+        for (index, point) in self.points.iter().enumerate() {
+            let found = match (point.is_pose, &inverse) {
+                (true, Some(inverse)) => self.pose(point, description.length).and_then(|pose| {
+                    let pose = frame.map_or(pose, |frame| frame.then(&pose));
+                    let all = inverse.solve(&last, &pose).map_err(|error| error.to_string())?;
+                    all.into_iter().next().ok_or_else(|| "out of reach".to_owned())
+                }),
+                _ => Ok(channels
+                    .iter()
+                    .map(|channel| match channel {
+                        JointChannel::Number(place, scale) => scale.value(point.numbers[*place].1),
+                        JointChannel::Fixed(value) => *value,
+                    })
+                    .collect()),
+            };
+            match found {
+                Ok(q) => {
+                    last.clone_from(&q);
+                    let row = Observation::new(point.line, q, u.clone(), map.unmeasured(None));
+                    data.observations.push(Observation { configuration: index as u32, ..row });
+                }
+                Err(reason) => {
+                    let reason = format!("the nominal machine does not reach this position: {reason}");
+                    data.unusable.push(Unusable { line: point.line, reason });
+                }
+            }
+        }
+        self.note(&data, spec, frame.is_some(), notes);
+        Ok(data)
+    }
+
+    /// Finds the numbers of joint targets of which a map makes joints.
+    fn channels(&self, map: &Map) -> Result<Vec<JointChannel>> {
+        let joints =
+            self.points.iter().find(|point| !point.is_pose).map_or(JOINTS, |point| point.numbers.len());
+        let letter = self.language.joint;
+        let channel = |channel: &Channel| match channel {
+            Channel::Column(column, scale) => {
+                let number = column.name.strip_prefix(letter).and_then(|number| number.parse().ok());
+                let place = number.filter(|number| (1..=joints).contains(number)).ok_or_else(|| {
+                    let message = format!("a program has no joint `{}`", column.name.escape_debug());
+                    let help = format!("its joints are `{letter}1` to `{letter}{joints}`");
+                    mistake::with_help(map.path(), message, help)
+                })?;
+                Ok(JointChannel::Number(place - 1, *scale))
+            }
+            Channel::Fixed(value) => Ok(JointChannel::Fixed(*value)),
+            Channel::FromRows(_) => Ok(JointChannel::Fixed(0.0)),
+        };
+        map.joints.iter().map(channel).collect()
+    }
+
+    /// Returns the pose that a position states.
+    fn pose(&self, point: &Point, length: LengthUnit) -> Result<Pose, String> {
+        let mut numbers: Vec<f64> = point.numbers.iter().map(|(_, number)| *number).collect();
+        self.language.in_order(&mut numbers[3..]);
+        let [x, y, z] = from_numbers(&self.language.turn(), &numbers[3..])?;
+        Ok(Pose([x, y, z, [0, 1, 2].map(|i| numbers[i] * self.language.metres / length.in_metres())]))
+    }
+
+    /// Returns the places and numbers of a pose, with their decimals; a quaternion has the sign of
+    /// the `old` one.
+    fn numbers(
+        &self,
+        pose: &Pose,
+        length: LengthUnit,
+        old: &[(Range<usize>, f64)],
+    ) -> Vec<(usize, f64, usize)> {
+        let Language { metres, radians, .. } = *self.language;
+        let Pose([x, y, z, position]) = *pose;
+        let mut turn = to_numbers(&self.language.turn(), &[x, y, z]);
+        self.language.in_order(&mut turn);
+        let is_quaternion = turn.len() == 4;
+        let product: f64 = turn.iter().zip(&old[3..]).map(|(new, (_, old))| new * old).sum();
+        let sign = if is_quaternion && product < 0.0 { -1.0 } else { 1.0 };
+        let turn = turn.into_iter().map(|number| {
+            (sign * number, decimals(DIGITS_OF_TURNS, if is_quaternion { 1.0 } else { radians }))
+        });
+        let position =
+            position.map(|v| (v * length.in_metres() / metres, decimals(DIGITS_OF_METRES, metres)));
+        let all = position.into_iter().chain(turn).enumerate();
+        all.map(|(place, (number, decimals))| (place, number, decimals)).collect()
+    }
+
+    /// Tells what the program does not say itself, and what is left as it is.
+    fn note(&self, data: &Data, spec: &Spec, has_frame: bool, notes: &mut dyn Notes) {
+        if let (Some(line), false) = (self.frame_line, has_frame) {
+            notes.warn(&format!(
+                "line {line} sets a frame of positions; here they are positions in F_0. Give its pose in F_0 \
+                 to `{FRAME}`"
+            ));
+        }
+        let first = data.observations.first().filter(|row| self.points[row.configuration as usize].is_pose);
+        if let Some(row) = first {
+            notes.note(&format!(
+                "line {}: the first position is reached with {}, the joints nearest to `home` of the spec; \
+                 those after it with the joints nearest to the ones before",
+                row.line,
+                number::variables(&row.q, spec)
+            ));
+        }
+        let lines: Vec<String> = self.relative.iter().take(NAMED).map(usize::to_string).collect();
+        if !lines.is_empty() {
+            let more = self.relative.len() - lines.len();
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            notes.warn(&format!(
+                "relative or incomplete positions are left as they are: line {}{more}",
+                lines.join(", ")
+            ));
+        }
+    }
+
+    /// Returns the program with the numbers of corrected commands, in the bytes of its file. Of
+    /// positions that are not among the rows, the numbers stay.
+    ///
+    /// # Errors
+    ///
+    /// A pose cannot be evaluated.
+    pub fn corrected(
+        &self,
+        rows: &[Row],
+        machine: &dyn Manipulator,
+        map: &Map,
+        frame: Option<&Pose>,
+    ) -> Result<Vec<u8>> {
+        let description = machine.description();
+        let s = sampling::nominal_parameters(description);
+        let channels = self.channels(map)?;
+        let (mut text, mut end) = (String::with_capacity(self.text.len()), 0);
+        for row in rows {
+            let Point { is_pose, numbers, .. } = &self.points[row.corrected.configuration as usize];
+            let q = &row.corrected.q;
+            let written: Vec<(usize, f64, usize)> = match is_pose {
+                true => {
+                    let pose =
+                        machine.pose(q, &s).map_err(|error| mistake::whole(&description.name, &error))?;
+                    let pose = frame.map_or(pose, |frame| frame.inverse().then(&pose));
+                    self.numbers(&pose, description.length, numbers)
+                }
+                false => {
+                    let joints = channels.iter().zip(q.iter().zip(&*description.variables));
+                    let number = |(channel, (value, variable)): (&JointChannel, (&f64, &Variable))| {
+                        let JointChannel::Number(place, scale) = channel else { return None };
+                        let metres = description.length.in_metres();
+                        let decimals = match variable.kind {
+                            VariableKind::Revolute => decimals(DIGITS_OF_TURNS, scale.one),
+                            VariableKind::Prismatic => decimals(DIGITS_OF_METRES, scale.one * metres),
+                        };
+                        Some((*place, scale.number(*value), decimals))
+                    };
+                    joints.filter_map(number).collect()
+                }
+            };
+            for (place, number, decimals) in written {
+                let (range, old) = &numbers[place];
+                // What is the same when rounded stays as it is written.
+                if 2.0 * (number - old).abs() * 10_f64.powi(decimals as i32) > 1.0 {
+                    text += &self.text[end..range.start];
+                    text += &format!("{number:.decimals$}");
+                    end = range.end;
+                }
+            }
+        }
+        text += &self.text[end..];
+        match self.is_latin {
+            true => Ok(text.chars().map(|c| c as u8).collect()),
+            false => Ok(text.into_bytes()),
+        }
+    }
+}
