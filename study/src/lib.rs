@@ -75,6 +75,7 @@ pub mod finite;
 mod iso230;
 pub mod lines;
 mod machine;
+mod machine_tool;
 pub mod named;
 pub mod open_loops;
 mod reads;
@@ -86,8 +87,7 @@ mod table_paths;
 
 use closing::Closing;
 
-pub use abbe_spec::notes::Notes;
-pub use abbe_spec::{mistake, notes};
+pub use abbe_spec::{mistake, notes, notes::Notes};
 pub use changes::{Changes, changed_text, find_symbol};
 pub use extrapolation::{Extrapolation, ToolPointDeviation};
 pub use finite::finite;

@@ -1,11 +1,9 @@
 //! Spec templates: starter files with comments for common kinds of machines.
 
-use abbe_spec::check_name;
-use abbe_spec::edit::Edits;
-use abbe_spec::edit::write::quoted;
+use abbe_spec::{check_name, edit::Edits, edit::write::quoted};
 
-use crate::Result;
 use crate::options::Choices;
+use crate::{Result, machine_tool, mistake};
 
 /// Kind of machine with a template.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +18,8 @@ pub enum Template {
     FiveAxisMill,
     /// Platform on six legs.
     Hexapod,
+    /// Linear and rotary axes in any order, with the errors of ISO 230-1.
+    MachineTool,
 }
 
 impl Template {
@@ -30,27 +30,36 @@ impl Template {
         (Self::Gantry, "gantry", "three linear axes"),
         (Self::FiveAxisMill, "five-axis-mill", "three linear axes that carry a swivel head"),
         (Self::Hexapod, "hexapod", "platform on six legs that extend"),
+        (Self::MachineTool, "machine-tool", "axes in the order of --axes, with errors by ISO 230-1"),
     ]);
 
-    /// Returns the text of the template.
-    pub const fn text(self) -> &'static str {
-        match self {
+    /// Returns the text of the template; `None` for one that is written for its axes.
+    const fn text(self) -> Option<&'static str> {
+        Some(match self {
             Self::SixAxis => include_str!("../templates/six-axis.toml"),
             Self::Scara => include_str!("../templates/scara.toml"),
             Self::Gantry => include_str!("../templates/gantry.toml"),
             Self::FiveAxisMill => include_str!("../templates/five-axis-mill.toml"),
             Self::Hexapod => include_str!("../templates/hexapod.toml"),
-        }
+            Self::MachineTool => return None,
+        })
     }
 
-    /// Returns the spec of a manipulator with this name.
+    /// Returns the spec of a manipulator with this name; `axes` is the order of the axes of a
+    /// machine tool, such as `w X' Y' b Z t`.
     ///
     /// # Errors
     ///
-    /// The name is not valid for a manipulator.
-    pub fn spec(self, name: &str) -> Result<String> {
+    /// The name is not valid for a manipulator, or the axes cannot be read or are not those of a
+    /// machine tool.
+    pub fn spec(self, name: &str, axes: Option<&str>) -> Result<String> {
         check_name("NAME", name)?;
-        let named = Edits::apply(self.text(), |root, edits| {
+        let Some(text) = self.text() else { return machine_tool::spec(name, axes) };
+        if axes.is_some() {
+            let help = "write `--template machine-tool`, or leave it out";
+            return Err(mistake::with_help("--axes", "only a machine tool has axes in an order", help));
+        }
+        let named = Edits::apply(text, |root, edits| {
             edits.set(&root.get("manipulator")?, "name", quoted(name));
             Some(())
         });

@@ -1,0 +1,218 @@
+//! Spec of a machine tool from the order of its axes, such as `[w C' X' b Y Z (C1) t]`: from the
+//! workpiece over the bed to the tool, axes that carry the workpiece with a prime (ISO 10791-6), the
+//! errors with the letters of ISO 230-1.
+
+use std::fmt::Write;
+
+use abbe_spec::mistake;
+
+use crate::Result;
+
+/// Order of the axes without another one.
+const USUAL: &str = "w X' Y' b Z t";
+
+/// Travel of an invented linear axis, in mm.
+const TRAVEL: f64 = 500.0;
+
+/// An axis: its letter, and whether it carries the workpiece.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Axis {
+    letter: char,
+    is_primed: bool,
+}
+
+impl Axis {
+    /// Returns the direction, 0 = X, and whether the axis is rotary.
+    fn direction(self) -> (usize, bool) {
+        let place = "XYZUVWABC".find(self.letter).unwrap_or_default();
+        (place % 3, place >= 6)
+    }
+
+    fn name(self) -> String {
+        format!("{}{}", self.letter, if self.is_primed { "'" } else { "" })
+    }
+}
+
+/// Reads the axes: those before the bed, and those after it.
+fn read(code: &str) -> Result<[Vec<Axis>; 2]> {
+    let refused = |message: String, help: &str| Err(mistake::with_help("--axes", message, help));
+    let inner = code.trim().trim_start_matches(['V', 'v']).trim_matches(['[', ']', ' ']);
+    let words: Vec<&str> = inner.split_whitespace().collect();
+    let form = format!("write the axes from workpiece to tool: `{USUAL}`");
+    let [first, middle @ .., last] = &words[..] else {
+        return refused("there are no axes".to_owned(), &form);
+    };
+    let beds = middle.iter().filter(|word| **word == "b").count();
+    if *first != "w" || *last != "t" || beds != 1 {
+        return refused("the order begins with `w`, ends with `t`, and has one bed `b`".to_owned(), &form);
+    }
+    let mut sides = [Vec::new(), Vec::new()];
+    let mut side = 0;
+    // A spindle, in parentheses, only turns.
+    for word in middle.iter().filter(|word| !word.starts_with('(')) {
+        if *word == "b" {
+            side = 1;
+            continue;
+        }
+        let bare = word.trim_end_matches(['\'', '′', '’']);
+        let known = bare.len() == 1 && "XYZUVWABC".contains(bare);
+        let axis = Axis { letter: bare.chars().next().unwrap_or('?'), is_primed: bare.len() < word.len() };
+        if !known {
+            let help = "linear axes are X Y Z U V W, rotary ones A B C; a spindle is in parentheses: (C)";
+            return refused(format!("unknown axis `{}`", word.escape_debug()), help);
+        }
+        if sides.iter().flatten().any(|other: &Axis| other.letter == axis.letter) {
+            return refused(format!("the axis {} is there twice", axis.letter), &form);
+        }
+        if axis.is_primed != (side == 0) {
+            let help = "axes between `w` and `b` carry the workpiece and have a prime, X'; those after `b` have none";
+            return refused(format!("the axis {} is on the wrong side of the bed", axis.name()), help);
+        }
+        sides[side].push(axis);
+    }
+    match sides.iter().all(Vec::is_empty) {
+        true => refused("there are no axes".to_owned(), &form),
+        false => Ok(sides),
+    }
+}
+
+/// Writes the spec of a machine tool with these axes, by default three.
+///
+/// # Errors
+///
+/// The order of the axes cannot be read.
+pub(crate) fn spec(name: &str, code: Option<&str>) -> Result<String> {
+    let [carrying, carried] = read(code.unwrap_or(USUAL))?;
+    let names = |axes: &[Axis]| axes.iter().map(|axis| format!("{} ", axis.name())).collect::<String>();
+    let code = format!("[w {}b {}t]", names(&carrying), names(&carried));
+    let mut text = format!(
+        "# A machine tool, {code}: from the workpiece w over the bed b to the tool t. Axes with a prime carry the workpiece.\n\
+         #\n\
+         # F_0 is the workpiece, and errors are those of the tool as it sees them, actual minus nominal: what is measured between\n\
+         # table and spindle, for every axis. The numbers are invented: replace them by those of your machine.\n\
+         # A number without a unit is in the length unit below, or in rad. A number with a unit stands in quotes: \"90 deg\".\n\n\
+         [manipulator]\nname = \"{name}\"\ntitle = \"Machine tool {code}\"\n\
+         reference = \"Template: invented numbers\"\nlength = \"mm\"\n\n\
+         [parameters]\ntool_length = {{ value = \"120 mm\", description = \"From the spindle nose to the tool tip\" }}\n\n\
+         # One frame for each axis. Distances between the axes stand before their motions: \"Tz(80 mm) Rz(c)\".\n"
+    );
+    let all: Vec<Axis> = carrying.iter().chain(&carried).copied().collect();
+    // Rotary axes do not meet, so that the place of each is its own.
+    let is_second = |axis: &Axis| {
+        all.iter().filter(|other| other.direction().1).position(|other| other == axis) == Some(1)
+    };
+    let offset = |axis: &Axis| if is_second(axis) { "Tx(20 mm) Ty(20 mm) Tz(-80 mm) " } else { "" };
+    carrying.iter().for_each(|axis| frame(&mut text, *axis, offset(axis)));
+    let middle = all.iter().filter(|axis| !axis.direction().1);
+    let middle: String =
+        middle.map(|axis| format!("T{}({}) ", XYZ[axis.direction().0], -TRAVEL / 2.0)).collect();
+    let _ = write!(
+        text,
+        "[[frame]]\nname = \"bed\"                                    # fixed: from the table to the spindle nose, all axes at 0\n\
+         transform = \"{middle}Tz(400)\"\n\n"
+    );
+    carried.iter().for_each(|axis| frame(&mut text, *axis, offset(axis)));
+    text += "[tool]\ntransform = \"Tz(-tool_length)\"\n\n\
+        # Errors by the letters of ISO 230-1: EYX is the error of the axis X along Y, EAX that about X. `e_p` turns about x, `e_s`\n\
+        # about y, `e_r` about z. They act at the origin of the frame; if they were measured along another line, add its place\n\
+        # to each: at = \"Ty(200) Tz(-150)\".\n";
+    all.iter().for_each(|axis| motion_errors(&mut text, *axis));
+    for axis in &all {
+        let (_, is_rotary) = axis.direction();
+        let variable = axis.letter.to_ascii_lowercase();
+        let error = if is_rotary { "1 arcsec" } else { "0.5 um" };
+        let _ = write!(
+            text,
+            "[[source]]\nname = \"scale of {}\"\nclass = \"random\"\ndistribution = \"uniform\"\njoint = \"{variable}\"\nerror = \"{error}\"\n\n",
+            axis.letter
+        );
+    }
+    text += "# Squareness and places of axes: one value in each machine, within ± these.\n";
+    squarenesses(&mut text, &all);
+    all.iter().filter(|axis| axis.direction().1).for_each(|axis| location_errors(&mut text, *axis));
+    Ok(text.trim_end().to_owned() + "\n")
+}
+
+const XYZ: [char; 3] = ['x', 'y', 'z'];
+
+/// Letters of errors by ISO 230-1, and their keys.
+const ERRORS: [(char, &str); 6] =
+    [('X', "e_x"), ('Y', "e_y"), ('Z', "e_z"), ('A', "e_p"), ('B', "e_s"), ('C', "e_r")];
+
+/// Writes the frame of an axis, `offset` before its motion.
+fn frame(text: &mut String, axis: Axis, offset: &str) {
+    let ((direction, is_rotary), variable) = (axis.direction(), axis.letter.to_ascii_lowercase());
+    let (kind, motion, limits, home) = match (is_rotary, axis.letter) {
+        (false, _) => (
+            "prismatic",
+            'T',
+            format!("\"0 mm\", \"{TRAVEL} mm\""),
+            format!(", home = \"{} mm\"", TRAVEL / 2.0),
+        ),
+        (true, 'C') => ("revolute", 'R', "\"-180 deg\", \"180 deg\"".to_owned(), String::new()),
+        (true, _) => ("revolute", 'R', "\"-110 deg\", \"110 deg\"".to_owned(), String::new()),
+    };
+    let _ = write!(
+        text,
+        "[[frame]]\nname = \"{}\"\nvariable = {{ name = \"{variable}\", kind = \"{kind}\", limits = [{limits}]{home} }}\n\
+         transform = \"{offset}{motion}{}({variable})\"\n\n",
+        axis.name(),
+        XYZ[direction],
+    );
+}
+
+fn source(text: &mut String, name: &str, class: &str, axis: Axis, (key, error): (&str, &str), at: &str) {
+    let _ = write!(
+        text,
+        "[[source]]\nname = \"{name}\"\nclass = \"{class}\"\nframe = \"{}\"\n{at}{key} = \"{error}\"\n\n",
+        axis.name()
+    );
+}
+
+/// Writes the six errors of the motion of an axis.
+fn motion_errors(text: &mut String, axis: Axis) {
+    let ((direction, is_rotary), variable) = (axis.direction(), axis.letter.to_ascii_lowercase());
+    for (i, (letter, key)) in ERRORS.into_iter().enumerate() {
+        let (is_turn, is_along) = (i >= 3, i % 3 == direction);
+        let error = match (is_rotary, is_turn, is_along) {
+            (false, false, true) => format!("8 um * {variable}/({TRAVEL} mm)"),
+            (false, false, false) => format!("3 um * sin(pi*{variable}/({TRAVEL} mm))"),
+            (false, true, _) => format!("10e-6 * {variable}/({TRAVEL} mm)"),
+            (true, false, true) => "1 um".to_owned() + &format!(" * cos(2*{variable})"),
+            (true, false, false) => format!("2 um * sin({variable})"),
+            (true, true, true) => format!("15e-6 * sin({variable})"),
+            (true, true, false) => format!("5e-6 * cos({variable})"),
+        };
+        let name = format!("E{letter}{}", axis.letter);
+        source(text, &name, "repeatable", axis, (key, &error), "");
+    }
+}
+
+/// Writes the squarenesses of the linear axes: each turns the path of an axis, not its carriage.
+fn squarenesses(text: &mut String, all: &[Axis]) {
+    let find = |letter: char| all.iter().find(|axis| axis.letter == letter);
+    for (name, one, other, key, error) in [
+        ("EC0Y", 'Y', 'X', "e_x", "-20e-6 * y"),
+        ("EB0Z", 'Z', 'X', "e_x", "20e-6 * z"),
+        ("EA0Z", 'Z', 'Y', "e_y", "-20e-6 * z"),
+    ] {
+        if let (Some(axis), Some(_)) = (find(one), find(other)) {
+            source(text, name, "tolerance", *axis, (key, error), "");
+        }
+    }
+}
+
+/// Writes the place and direction of a rotary axis, in axes that do not turn with it: those of the
+/// frame if it carries the workpiece, otherwise those before it.
+fn location_errors(text: &mut String, axis: Axis) {
+    let (direction, _) = axis.direction();
+    let at = match axis.is_primed {
+        true => String::new(),
+        false => format!("at = \"R{}(-{})\"\n", XYZ[direction], axis.letter.to_ascii_lowercase()),
+    };
+    for (i, (letter, key)) in ERRORS.into_iter().enumerate().filter(|(i, _)| i % 3 != direction) {
+        let error = if i < 3 { "10 um" } else { "20e-6" };
+        let name = format!("E{letter}0{}", axis.letter);
+        source(text, &name, "tolerance", axis, (key, error), &at);
+    }
+}
