@@ -4,17 +4,19 @@ use std::path::PathBuf;
 
 use abbe_metrology::positioning;
 use abbe_report::views;
+use abbe_study::RunRecord;
 use clap::{Args, ValueHint};
 
-use crate::arguments::{Showing, Writing};
+use crate::arguments::{Page, Showing, Writing};
 use crate::{Console, Failure, Outcome, Outputs, Result};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
     "  abbe positioning x-axis.csv --reading-uncertainty 0.1um --scale-uncertainty 1um/m
   abbe positioning x-axis.csv --out exx.csv
+  abbe positioning x-axis.csv --accept \"A 12um, B 3um\" --report x-axis.html
   abbe positioning diagonals.csv
-"))]
+", "a characteristic is not within its limit by its uncertainty"))]
 pub(crate) struct Positioning {
     /// Runs: a CSV file with columns `position (mm)`, `direction` (`+` or `-`) and `deviation
     /// (um)`, or `actual (mm)`; or with one column for each pass, `1+ (um)`, `1- (um)`, …
@@ -29,9 +31,15 @@ pub(crate) struct Positioning {
     /// Standard uncertainty of the scale of the instrument, with that of the temperature: `1um/m`
     #[arg(long, value_name = "VALUE")]
     scale_uncertainty: Option<String>,
+    /// Accept the axis if its characteristics are within these limits by at least their uncertainty:
+    /// "A 12um, B 3um"; A, E, M, R and B are those of both directions if the runs have both
+    #[arg(long, value_name = "LIMITS")]
+    accept: Option<String>,
     /// Write the mean deviations at the positions to this CSV file, for a table of a spec
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    page: Page,
     #[command(flatten)]
     writing: Writing,
     #[command(flatten)]
@@ -39,25 +47,36 @@ pub(crate) struct Positioning {
 }
 
 pub(crate) fn run(arguments: &Positioning) -> Result<Outcome> {
-    let Positioning { data, reading_uncertainty, scale_uncertainty, out, writing, showing } = arguments;
+    let Positioning { data, reading_uncertainty, scale_uncertainty, accept, out, page, writing, showing } =
+        arguments;
     let job = positioning::Positioning {
         data: data.into(),
         reading: reading_uncertainty.clone(),
         scale: scale_uncertainty.clone(),
+        accept: accept.clone(),
     };
     let mut outputs = Outputs::new(&job, writing.force);
-    let file = out.as_deref().map(|file| outputs.file(file)).transpose()?;
+    let file = outputs.wanted(out.as_deref())?;
+    let html = outputs.wanted(page.report.as_deref())?;
     let report = job.run(&mut Console::default())?;
     let next = match file {
         Some(_) => "--full for every position",
         None => "--out FILE writes the mean deviations for a table of a spec, --full shows every position",
     };
-    let text = showing.answer(&report, views::positioning(&report), next)?;
-    let Some(file) = file else { return Ok(Outcome::passed(text)) };
-    let Some(table) = report.table() else {
-        let message = "the deviations of several diagonals are not a table of one axis";
-        return Err(Failure::new("--out", message).help("leave `--out` out"));
+    let document = views::positioning(&report);
+    let mut record = RunRecord::default();
+    page.dated.date(&mut record);
+    let html = html.map(|file| file.fill(&document.page_of_data("runs", job.data, record)?)).transpose()?;
+    let text = showing.answer(&report, document, next)?;
+    let table = match (file, report.table()) {
+        (None, _) => None,
+        (Some(file), Some(table)) => Some(file.fill(&table.csv())?),
+        (Some(_), None) => {
+            let message = "the deviations of several diagonals are not a table of one axis";
+            return Err(Failure::new("--out", message).help("leave `--out` out"));
+        }
     };
-    let printed = outputs.finish([file.fill(&table.csv())?])?;
-    Ok(Outcome::passed(text).beside(printed))
+    let printed = outputs.finish(table.into_iter().chain(html))?;
+    let is_accepted = report.accepted.as_ref().is_none_or(|verdict| verdict.is_met());
+    Ok(Outcome::checked(text, is_accepted).beside(printed))
 }

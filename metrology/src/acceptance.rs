@@ -1,9 +1,7 @@
 //! Acceptance limits on the errors of test rows.
 
 use abbe::LengthUnit;
-use abbe_spec::expr::Dimension;
-use abbe_spec::value::parse_value;
-use abbe_spec::{Diagnostic, Document};
+use abbe_spec::{Diagnostic, Document, expr::Dimension, value::parse_value};
 use serde::Serialize;
 
 use crate::sizes::Sizes;
@@ -79,52 +77,85 @@ pub struct AcceptanceVerdict {
 }
 
 /// Normal quantile `Φ⁻¹(0.95)`.
-const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
+pub(crate) const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
+
+impl LimitCheck {
+    /// Compares a value with its limit beyond its uncertainty.
+    pub(crate) fn new(figure: &'static str, limit: f64, value: f64, uncertainty: f64) -> Self {
+        let decision = match limit - value {
+            room if room >= uncertainty => Decision::Accepted,
+            room if room < -uncertainty => Decision::Rejected,
+            _ => Decision::Undecided,
+        };
+        Self { figure, limit, value, uncertainty, decision }
+    }
+}
 
 impl AcceptanceVerdict {
+    /// Judges by comparisons; `None` without any.
+    pub(crate) fn new((judged, rows): (Judged, &'static str), limits: Vec<LimitCheck>) -> Option<Self> {
+        let decision = limits.iter().map(|limit| limit.decision).min()?;
+        Some(Self { judged, rows, limits, decision })
+    }
+
     /// Returns whether all limits are met beyond the uncertainty.
     pub fn is_met(&self) -> bool {
         self.decision == Decision::Accepted
     }
 }
 
+/// Parses figures and their limits, the `parts` of `text` that are not something else; `form` is an
+/// example, and what else may be among them.
+pub(crate) fn read_limits<'t>(
+    option: &str,
+    text: &str,
+    parts: impl Iterator<Item = (&'t str, bool)>,
+    names: &[&'static str],
+    (length, dimension): (LengthUnit, Dimension),
+    (example, more): (&str, &str),
+) -> Result<Vec<(&'static str, f64)>> {
+    let document = Document::new(option, text);
+    let (mut limits, mut at) = (Vec::new(), 0);
+    for (part, is_else) in parts {
+        let start = at + part.len() - part.trim_start().len();
+        let end = (at + part.trim_end().len()).max(start);
+        at += part.len() + 1;
+        if is_else {
+            continue;
+        }
+        let name = text[start..end].split_whitespace().next().unwrap_or_default();
+        let Some(figure) = names.iter().find(|figure| **figure == name) else {
+            let message = format!("unknown figure `{}`", name.escape_debug());
+            let names = names.join(", ");
+            let help = format!("write a figure and its limit: `{example}`; the figures are {names}{more}");
+            document.mistake(Diagnostic::new(start..end, message).help(help));
+            continue;
+        };
+        let value = parse_value(&document, start + name.len()..end, length, dimension, "this limit");
+        limits.extend(value.map(|value| (*figure, value)));
+    }
+    if limits.is_empty() {
+        let mistake = Diagnostic::new(0..text.len(), "there is no limit");
+        document.mistake(mistake.help(format!("write a figure and its limit beside it: `{example}`")));
+    }
+    document.finish(Some(limits))
+}
+
 impl Acceptance {
     /// Parses `mean 0.15 mm, max 0.3 mm`, with `target fitted` among them or not. Mistakes are
     /// reported under the name `option`.
     pub fn read(option: &str, text: &str, length: LengthUnit) -> Result<Self> {
-        let document = Document::new(option, text);
-        let mut read = Self::default();
-        let mut at = 0;
-        for part in text.split(',') {
-            let start = at + part.len() - part.trim_start().len();
-            let end = at + part.trim_end().len();
-            at += part.len() + 1;
-            let mut words = text[start..end.max(start)].split_whitespace();
-            if words.clone().eq([TARGET, FITTED]) {
-                read.is_target_fitted = true;
-                continue;
-            }
-            let name = words.next().unwrap_or_default();
-            let Some(figure) = FIGURE_NAMES.into_iter().find(|figure| *figure == name) else {
-                let message = format!("unknown figure `{}`", name.escape_debug());
-                let help = format!(
-                    "write a figure and its limit: `mean 0.15 mm, max 0.3 mm`; the figures are {}; `{TARGET} {FITTED}` \
-                     permits a place on the tool that is fitted to the rows",
-                    FIGURE_NAMES.join(", ")
-                );
-                document.mistake(Diagnostic::new(start..end.max(start), message).help(help));
-                continue;
-            };
-            let value =
-                parse_value(&document, start + name.len()..end, length, Dimension::LENGTH, "this limit");
-            read.limits.extend(value.map(|value| (figure, value)));
-        }
-        if read.limits.is_empty() {
-            let mistake = Diagnostic::new(0..text.len(), "there is no limit");
-            document
-                .mistake(mistake.help("write a figure and its limit beside it: `max 0.3 mm, target fitted`"));
-        }
-        document.finish(Some(read))
+        let permitted =
+            format!("; `{TARGET} {FITTED}` permits a place on the tool that is fitted to the rows");
+        let form = ("mean 0.15 mm, max 0.3 mm", &*permitted);
+        let mut is_target_fitted = false;
+        let parts = text.split(',').map(|part| {
+            let is_permission = part.split_whitespace().eq([TARGET, FITTED]);
+            is_target_fitted |= is_permission;
+            (part, is_permission)
+        });
+        let limits = read_limits(option, text, parts, &FIGURE_NAMES, (length, Dimension::LENGTH), form)?;
+        Ok(Self { limits, is_target_fitted })
     }
 
     /// Returns the limit on the largest error; without one, the limit on the next figure in the
@@ -154,17 +185,9 @@ impl Acceptance {
                 "p95" => (sizes.p95, noise),
                 _ => (sizes.max, noise),
             };
-            let uncertainty = ONE_SIDED_95 * deviation;
-            let decision = match limit - value {
-                room if room >= uncertainty => Decision::Accepted,
-                room if room < -uncertainty => Decision::Rejected,
-                _ => Decision::Undecided,
-            };
-            LimitCheck { figure, limit: *limit, value, uncertainty, decision }
+            LimitCheck::new(figure, *limit, value, ONE_SIDED_95 * deviation)
         };
-        let limits: Vec<LimitCheck> = self.limits.iter().map(limit).collect();
-        let decision = limits.iter().map(|limit| limit.decision).min()?;
-        Some(AcceptanceVerdict { judged, rows, limits, decision })
+        AcceptanceVerdict::new((judged, rows), self.limits.iter().map(limit).collect())
     }
 
     /// Formats the limits as [`read`](Self::read) parses them; empty without any.

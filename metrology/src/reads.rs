@@ -47,7 +47,7 @@ impl Reads for Source<'_> {
 }
 
 abbe_study::reads! {
-    Positioning<'_>: data, without reading scale;
+    Positioning<'_>: data, without reading scale accept;
     Compensate: machine map data, without poses tolerance weight;
     Doctor<'_>: machine data, without within;
     Identify: machine map data test, without terms harmonics settings accept;

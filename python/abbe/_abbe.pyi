@@ -861,6 +861,7 @@ def positioning(
     *,
     reading_uncertainty: str | None = None,
     scale_uncertainty: str | None = None,
+    accept: str | None = None,
 ) -> PositioningReport:
     """Evaluates runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6.
 
@@ -868,7 +869,8 @@ def positioning(
     `deviation (um)` or `actual (mm)`; or with one column for each pass, `1+ (um)`, `1- (um)`, …
     A column `diagonal` names the body diagonal of each row. `reading_uncertainty`,
     `scale_uncertainty`: standard uncertainties of one reading of the instrument, "0.1 um", and of
-    its scale, "1 um/m".
+    its scale, "1 um/m". `accept`: limits of characteristics, "A 12 um, B 3 um"; the report then has
+    a verdict, `accepted`.
 
     Positions are in mm or deg, characteristics in um or arcsec. `.table("rows")` has the mean
     deviations of an axis at its positions. Fields: `abbe.reports.PositioningReport`.

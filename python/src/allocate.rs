@@ -1,7 +1,6 @@
 //! Factors of the error sources that keep a tolerance at least cost.
 
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use abbe_report::views;
 use abbe_study::allocate::Allocate;

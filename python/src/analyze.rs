@@ -9,8 +9,7 @@ use abbe_study::analyze::options::DRAWS;
 use abbe_study::analyze::parts::{AnalysisRequest, FileText, Part, Shard};
 use abbe_study::explore::Explore;
 use abbe_study::{Notes, Result};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
+use pyo3::{exceptions::PyValueError, prelude::*};
 
 use crate::job::{self, Tolerances, run, within};
 use crate::machine::Machine;

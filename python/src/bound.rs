@@ -1,14 +1,12 @@
 //! Certified upper bounds of the errors of a machine.
 
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use abbe_bound::Effort;
 use abbe_report::views;
 use abbe_study::bound::Bound as Job;
 use abbe_study::bound::options::{BOXES, Gap};
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
+use pyo3::{exceptions::PyValueError, prelude::*};
 
 use crate::job::{self, Tolerances, run, seconds, within};
 use crate::{Machine, Report};

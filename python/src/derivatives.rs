@@ -2,9 +2,7 @@
 
 use abbe::{Function, Manipulator};
 use abbe_study::mistake;
-use pyo3::exceptions::PyValueError;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 
 use crate::arrays::{empty, numbers, output_array};
 use crate::functions::vec_of;

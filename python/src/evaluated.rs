@@ -1,8 +1,7 @@
 //! Functions of a machine, as Python methods.
 
 use abbe::Function;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::{prelude::*, types::PyDict};
 
 use crate::functions::ThirdArgument;
 use crate::machine::Machine;

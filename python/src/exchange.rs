@@ -1,7 +1,6 @@
 //! Import of robots from other formats, and export of machines to files of other programs.
 
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use abbe_report::{text, views};
 use abbe_spec::Document;

@@ -1,7 +1,6 @@
 //! Live pages.
 
-use std::borrow::Cow;
-use std::path::PathBuf;
+use std::{borrow::Cow, path::PathBuf};
 
 use abbe_study::explore::Explore;
 use pyo3::prelude::*;

@@ -1,9 +1,7 @@
 //! Evaluation of a function of a machine with arguments from Python.
 
-use abbe::function::Array;
-use abbe::{Description, Function, Manipulator, Quantity};
-use abbe_study::mistake;
-use abbe_study::options::quantity;
+use abbe::{Description, Function, Manipulator, Quantity, function::Array};
+use abbe_study::{mistake, options::quantity};
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;

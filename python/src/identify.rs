@@ -8,9 +8,7 @@ use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};
 use abbe_metrology::identify::{Family, Identify, Prior, Settings};
 use abbe_report::views;
 use abbe_study::options::share;
-use pyo3::exceptions::PyTypeError;
-use pyo3::prelude::*;
-use pyo3::types::PyString;
+use pyo3::{exceptions::PyTypeError, prelude::*, types::PyString};
 
 use crate::job::{named, run, seconds, within};
 use crate::machine::Machine;

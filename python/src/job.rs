@@ -12,8 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-use abbe_spec::expr::Dimension;
-use abbe_spec::{Document, Spec};
+use abbe_spec::{Document, Spec, expr::Dimension};
 use abbe_study::options::{Choices, THREADS, quantity};
 use abbe_study::{Notes, Result, Study};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe_metrology::data::Data;
-use abbe_metrology::measure::Measure;
+use abbe_metrology::{data::Data, measure::Measure};
 use abbe_report::views;
 use pyo3::prelude::*;
 

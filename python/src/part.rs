@@ -2,14 +2,10 @@
 //!
 //! Report of an analysis, of one run or of merged parts.
 
-use std::borrow::Cow;
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::{borrow::Cow, path::PathBuf, sync::Arc};
 
 use abbe_report::budget;
-use abbe_study::analyze;
-use abbe_study::analyze::parts;
-use abbe_study::explore::Explore;
+use abbe_study::{analyze, analyze::parts, explore::Explore};
 use pyo3::exceptions::{PyFileExistsError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

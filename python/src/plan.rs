@@ -1,8 +1,7 @@
 //! Measurement plans.
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use abbe_metrology::plan::options::{CANDIDATES, COUNT, CRITERIA};
 use abbe_metrology::plan::{Choice, Plan, Sets};

@@ -14,7 +14,8 @@ use crate::{Measured, Report, run};
 /// `deviation (um)` or `actual (mm)`; or with one column for each pass, `1+ (um)`, `1- (um)`, …
 /// A column `diagonal` names the body diagonal of each row. `reading_uncertainty`,
 /// `scale_uncertainty`: standard uncertainties of one reading of the instrument, "0.1 um", and of
-/// its scale, "1 um/m".
+/// its scale, "1 um/m". `accept`: limits of characteristics, "A 12 um, B 3 um"; the report then has
+/// a verdict, `accepted`.
 ///
 /// Positions are in mm or deg, characteristics in um or arcsec. `.table("rows")` has the mean
 /// deviations of an axis at its positions. Fields: `abbe.reports.PositioningReport`.
@@ -25,17 +26,18 @@ use crate::{Measured, Report, run};
 /// >>> report.lines[0].bidirectional.reversal.value
 /// 2.0
 #[pyfunction]
-#[pyo3(signature = (data, *, reading_uncertainty=None, scale_uncertainty=None))]
+#[pyo3(signature = (data, *, reading_uncertainty=None, scale_uncertainty=None, accept=None))]
 pub(crate) fn positioning(
     py: Python<'_>,
     data: &Bound<'_, PyAny>,
     reading_uncertainty: Option<String>,
     scale_uncertainty: Option<String>,
+    accept: Option<String>,
 ) -> PyResult<Py<Report>> {
     let measured = Measured::all("data", data)?;
     let (report, notes) = run(py, None, None, |notes| {
         let (reading, scale) = (reading_uncertainty, scale_uncertainty);
-        Positioning { data: measured.source(), reading, scale }.run(notes)
+        Positioning { data: measured.source(), reading, scale, accept }.run(notes)
     })?;
     let rows = report.table();
     let found = Report::from_document("positioning", &Arc::new(report), notes, views::positioning)?;

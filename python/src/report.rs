@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use abbe_metrology::data;
-use abbe_report::text::Detail;
-use abbe_report::{Document, Picture};
+use abbe_report::{Document, Picture, text::Detail};
 use abbe_study::Result;
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;

@@ -1,18 +1,14 @@
 //! Tables of reports for readers of Arrow: pandas, polars, pyarrow, duckdb.
 
-use std::collections::HashMap;
-use std::fmt::Display;
-use std::sync::Arc;
+use std::{collections::HashMap, fmt::Display, sync::Arc};
 
 use abbe_metrology::data;
-use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use arrow_array::types::Float64Type;
 use arrow_array::{
     Array, ArrayRef, BooleanArray, Float64Array, Int64Array, ListArray, RecordBatch, RecordBatchIterator,
     RecordBatchOptions, StringArray,
 };
-use arrow_schema::ffi::FFI_ArrowSchema;
-use arrow_schema::{Field, Schema};
+use arrow_array::{ffi_stream::FFI_ArrowArrayStream, types::Float64Type};
+use arrow_schema::{Field, Schema, ffi::FFI_ArrowSchema};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyTuple};

@@ -36,6 +36,7 @@ macro_rules! options {
 }
 
 options! {
+    ACCEPT = "accept";
     BASE = "base";
     BASE_LINK = "base", "LINK";
     BOXES = "boxes";

@@ -76,6 +76,56 @@ fn uncertainty_of_the_instrument_is_propagated() {
     assert!((report["instrument"][0].as_f64().unwrap() - 1.0).abs() < 1e-12);
 }
 
+/// A characteristic is accepted if it is within its limit by its uncertainty of 95 % on one side,
+/// and rejected if it is beyond it by that; the page has the verdict and the figure.
+#[test]
+fn limits_are_kept_by_the_uncertainty() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = write(folder.path(), "runs.csv", WIDE);
+    let stated = ["--reading-uncertainty", "0.3um", "--scale-uncertainty", "1um/m"];
+    let positioning = [&["positioning", file.to_str().unwrap()][..], &stated].concat();
+    let report = json(&[&positioning[..], &["--json"]].concat());
+    let both = &report["lines"][0]["bidirectional"];
+    let names =
+        [("A", "accuracy"), ("E", "systematic"), ("M", "mean"), ("R", "repeatability"), ("B", "reversal")];
+    for (figure, name) in names {
+        let number = |key: &str| both[name][key].as_f64().unwrap();
+        let guard = 1.644_853_6 * number("uncertainty") / 2.0;
+        for (share, status, words) in [
+            (1.01, 0, "Accepted on the runs, as built"),
+            (0.5, 1, "Neither accepted nor rejected on the runs"),
+            (-0.5, 1, "Neither accepted nor rejected on the runs"),
+            (-1.01, 1, "Not accepted on the runs"),
+        ] {
+            let limit = format!("{figure} {:.6}um", number("value") + share * guard);
+            let run = abbe(&[&positioning[..], &["--accept", &limit]].concat());
+            assert_eq!(run.status, status, "{limit}: {}{}", run.stdout, run.stderr);
+            assert!(run.stdout.contains(words), "{limit}: {}", run.stdout);
+            narrow(&run.stdout);
+        }
+    }
+    let page = folder.path().join("page.html");
+    let written =
+        ["--accept", "A 20um, B 0.001mm", "--report", page.to_str().unwrap(), "--date", "2026-03-14"];
+    let run = abbe(&[&positioning[..], &written].concat());
+    assert_eq!(run.status, 1, "{}", run.stderr);
+    let page = fs::read_to_string(page).unwrap();
+    for expected in
+        ["Not accepted on the runs", "2026-03-14", "from below", "two standard deviations", "runs.csv"]
+    {
+        assert!(page.contains(expected), "{expected}");
+    }
+    for (limits, message) in
+        [("A", "A"), ("Q 3um", "unknown figure `Q`"), ("A 3 arcsec", "this limit"), ("", "there is no limit")]
+    {
+        let run = abbe(&[&positioning[..], &["--accept", limits]].concat());
+        assert!(run.status == 2 && run.stderr.contains(message), "{limits}: {}", run.stderr);
+    }
+    let single = write(folder.path(), "single.csv", "position (mm),1+ (um),1- (um)\n0,1,2\n9,3,4\n");
+    let run = abbe(&["positioning", single.to_str().unwrap(), "--accept", "A 3um"]);
+    assert!(run.status == 2 && run.stderr.contains("A is not known"), "{}", run.stderr);
+}
+
 /// Checks that the answer says why characteristics are missing, and at which position.
 #[test]
 fn missing_characteristics_have_their_reason() {

@@ -4,16 +4,16 @@
 
 mod evaluation;
 
-use abbe_spec::option::{NamedOption, READING_UNCERTAINTY, SCALE_UNCERTAINTY};
+use abbe_spec::option::{ACCEPT, NamedOption, READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use std::path::Path;
 
 use abbe::LengthUnit;
 use abbe_spec::expr::Dimension;
 use serde::Serialize;
 
+use crate::acceptance::{AcceptanceVerdict, Judged, LimitCheck, ONE_SIDED_95, read_limits};
 use crate::data::{Runs, Source, Table, TargetRuns, runs};
-use abbe_study::options::quantity;
-use abbe_study::{Notes, Result, finite, mistake};
+use abbe_study::{Notes, Result, finite, mistake, options::quantity};
 
 pub use evaluation::{
     ApproachResult, Bidirectional, Characteristic, Evaluation, InstrumentUncertainty, PositionResult,
@@ -31,6 +31,8 @@ pub struct Positioning<'a> {
     pub reading: Option<String>,
     /// Standard uncertainty of the scale of the instrument, such as `1 um/m`.
     pub scale: Option<String>,
+    /// Limits of characteristics, such as `A 10 um, B 3 um`.
+    pub accept: Option<String>,
 }
 
 /// Results of one axis, or of several diagonals. Positions are in mm or deg, deviations in um or
@@ -52,6 +54,8 @@ pub struct Report {
     pub lines: Vec<PositioningLine>,
     /// Results of all diagonals together; none for an axis.
     pub diagonals: Option<DiagonalResult>,
+    /// Verdict by the limits, in `unit`; none without limits.
+    pub accepted: Option<AcceptanceVerdict>,
 }
 
 /// Results of an axis or a diagonal.
@@ -99,7 +103,7 @@ impl Positioning<'_> {
             evaluation: Evaluation::new(&targets, instrument),
         };
         let lines: Vec<PositioningLine> = lines.into_iter().map(line).collect();
-        let report = Report {
+        let mut report = Report {
             file: match self.data.file().and_then(Path::file_name) {
                 Some(name) => name.to_string_lossy().into_owned(),
                 None => self.data.name(),
@@ -110,7 +114,11 @@ impl Positioning<'_> {
             instrument: instrument.map(|InstrumentUncertainty { reading, scale }| [reading, scale]),
             diagonals: (!is_axis).then(|| DiagonalResult::new(&lines)),
             lines,
+            accepted: None,
         };
+        if let Some(limits) = &self.accept {
+            report.accepted = report.verdict(limits, is_rotary)?;
+        }
         finite(self.data.name(), report)
     }
 
@@ -151,6 +159,49 @@ impl DiagonalResult {
 }
 
 impl Report {
+    /// Compares characteristics with limits such as `A 10 um, B 3 um`: of an axis in both directions
+    /// or, if the runs have one, in that; of diagonals the largest.
+    fn verdict(&self, text: &str, is_rotary: bool) -> Result<Option<AcceptanceVerdict>> {
+        let figures: Vec<(&'static str, Option<Characteristic>)> = match (&self.diagonals, &self.lines[..]) {
+            (Some(all), _) => vec![("E", all.systematic), ("B", all.reversal)],
+            (None, [line, ..]) => match (&line.evaluation.bidirectional, line.evaluation.one_direction()) {
+                (Some(both), _) => vec![
+                    ("A", both.accuracy),
+                    ("E", Some(both.systematic)),
+                    ("M", Some(both.mean)),
+                    ("R", both.repeatability),
+                    ("B", Some(both.reversal)),
+                ],
+                (None, Some(one)) => {
+                    vec![("A", one.accuracy), ("E", Some(one.systematic)), ("R", one.repeatability)]
+                }
+                (None, None) => Vec::new(),
+            },
+            (None, []) => Vec::new(),
+        };
+        let names: Vec<&str> = figures.iter().map(|(name, _)| *name).collect();
+        let (dimension, factor, example) = match is_rotary {
+            true => (Dimension::NONE, 3600.0_f64.to_degrees(), "E 10 arcsec, B 3 arcsec"),
+            false => (Dimension::LENGTH, 1e3, "E 10 um, B 3 um"),
+        };
+        let option = ACCEPT.to_string();
+        let parts = text.split(',').map(|part| (part, false));
+        let unit = (LengthUnit::Millimetre, dimension);
+        let limits = read_limits(&option, text, parts, &names, unit, (example, ""))?;
+        let check = |(name, limit): (&'static str, f64)| {
+            let found = figures.iter().find(|(figure, _)| *figure == name).and_then(|(_, value)| *value);
+            let Some(Characteristic { value, uncertainty }) = found else {
+                let message = format!("{name} is not known: a position has a single approach in a direction");
+                return Err(mistake::with_help(&option, message, "approach each position twice or more"));
+            };
+            // The expanded uncertainty has k = 2 on both sides.
+            let uncertainty = ONE_SIDED_95 * uncertainty.unwrap_or_default() / 2.0;
+            Ok(LimitCheck::new(name, factor * limit, value, uncertainty))
+        };
+        let limits = limits.into_iter().map(check).collect::<Result<_>>()?;
+        Ok(AcceptanceVerdict::new((Judged::Machine, "the runs"), limits))
+    }
+
     /// Returns the mean deviations of an axis at its positions, for a table of a spec: of both
     /// directions together and of each; `None` for diagonals.
     pub fn table(&self) -> Option<Table> {

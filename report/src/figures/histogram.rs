@@ -7,8 +7,7 @@
 mod tests;
 
 use abbe::analysis::sampling::range_of;
-use abbe_study::analyze::Report;
-use abbe_study::analyze::figures::Histogram;
+use abbe_study::{analyze::Report, analyze::figures::Histogram};
 
 use super::NamedFigure;
 use crate::scene::{Axis, Colour, Mark, Panel, Scene, with_margin};

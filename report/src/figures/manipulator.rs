@@ -1,8 +1,7 @@
 //! Manipulator as a stick figure with its frames, at home.
 
 use abbe::analysis::sampling::range_of;
-use abbe_study::analyze::Report;
-use abbe_study::analyze::figures::Stick;
+use abbe_study::{analyze::Report, analyze::figures::Stick};
 
 use crate::scene::{Axis, Colour, Mark, Panel, Scene, Shape, View};
 

@@ -2,11 +2,12 @@
 //!
 //! `travel`, `surface`, `cloud`, `histogram`, `pareto` and `manipulator` are the figures that a
 //! study can request; [`NamedFigure`] has their titles and file names.
-//! `measured`, `residuals`, `distances` and `charts` are the figures of measurements,
-//! identification, compensation and monitoring.
+//! `measured`, `residuals`, `distances`, `charts` and `deviations` are the figures of measurements,
+//! identification, compensation, monitoring and positioning tests.
 
 pub(crate) mod charts;
 mod cloud;
+pub(crate) mod deviations;
 pub(crate) mod distances;
 mod histogram;
 mod manipulator;
@@ -19,9 +20,7 @@ mod surface;
 mod travel;
 
 use abbe::analysis::sampling::norm;
-use abbe_study::analyze::Report;
-use abbe_study::analyze::figures::FigureData;
-use abbe_study::study_file::Content;
+use abbe_study::{analyze::Report, analyze::figures::FigureData, study_file::Content};
 
 pub(crate) use named::NamedFigure;
 use quantity::Quantity;

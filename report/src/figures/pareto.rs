@@ -1,7 +1,6 @@
 //! Pareto chart: the share of each source in descending order, and the cumulative share.
 
-use abbe_study::analyze::Report;
-use abbe_study::number::trimmed;
+use abbe_study::{analyze::Report, number::trimmed};
 
 use super::NamedFigure;
 use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene};

@@ -3,8 +3,7 @@
 
 use abbe::analysis::sampling::range_of;
 use abbe_spec::Spec;
-use abbe_study::number::short;
-use abbe_study::study_file::Over;
+use abbe_study::{number::short, study_file::Over};
 
 use super::histogram::{COLOURS, FigureRange, NamedValues, panel};
 use super::{Quantity, norm, step, thinned};

@@ -37,13 +37,23 @@ impl Document {
         residuals: Option<Residuals>,
         notes: &mut dyn Notes,
     ) -> Result<String> {
-        let provenance = Provenance::new(&machine.spec, map, files)?;
+        let provenance = Provenance::new(Some(&machine.spec), map, files)?;
         let rows = residuals.as_ref().map(|residuals| {
             Section::full("Row by row").table(row_by_row(residuals, machine.spec.length.symbol()))
         });
         let sections = self.sections.iter().cloned().chain(rows).collect();
         let live = Explore::measured(machine.clone(), residuals).run(notes)?;
         Ok(Self { sections, ..self.clone() }.page(&provenance, Some(&live)))
+    }
+
+    /// Builds the page of a report on data without a machine; `kind` is what the data are.
+    ///
+    /// # Errors
+    ///
+    /// The data cannot be read.
+    pub fn page_of_data(&self, kind: &'static str, data: Source<'_>, record: RunRecord) -> Result<String> {
+        let provenance = Provenance::new(None, None, [(kind, data)])?;
+        Ok(Self { record, ..self.clone() }.page(&provenance, None))
     }
 
     /// Builds the page of the report; `live` is the data of its live panel.
@@ -185,18 +195,19 @@ pub(crate) struct Provenance {
 }
 
 impl Provenance {
-    /// Collects the spec, the map if there is one, and the files or tables of the job.
+    /// Collects the spec and the map if there are any, and the files or tables of the job.
     ///
     /// # Errors
     ///
     /// A file cannot be read.
     pub(crate) fn new<'f>(
-        spec: &Spec,
+        spec: Option<&Spec>,
         map: Option<&Map>,
         files: impl IntoIterator<Item = (&'static str, impl Into<Source<'f>>)>,
     ) -> Result<Self> {
         let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let mut all = vec![("spec", spec.file.clone(), spec.hash.clone())];
+        let mut all: Vec<_> =
+            spec.map(|spec| ("spec", spec.file.clone(), spec.hash.clone())).into_iter().collect();
         all.extend(map.map(|map| ("map", name(Path::new(map.path())), map.hash())));
         for (kind, source) in files {
             let source = source.into();

@@ -6,7 +6,9 @@ use abbe_metrology::positioning::{
 use abbe_spec::option::{READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use abbe_study::number::digits;
 
+use super::shared::accepted_by;
 use crate::document::{Document, Section, Table, joined};
+use crate::figures::deviations;
 
 /// Describes the characteristics of a positioning test.
 pub fn positioning(report: &Report) -> Document {
@@ -15,12 +17,17 @@ pub fn positioning(report: &Report) -> Document {
         lines => of_diagonals(lines, report.unit),
     };
     let positions = report.lines.iter().map(|line| positions(report, line));
+    let accepted = |verdict| accepted_by(verdict, |value| format!("{} {}", digits(value, 3), report.unit));
+    let verdict = report.accepted.as_ref().map(accepted);
     Document {
         kind: "Positioning test",
         machine: report.file.clone(),
-        headline: headline(report),
+        headline: verdict.as_ref().map_or_else(|| headline(report), |verdict| verdict.text.clone()),
+        is_signed: verdict.is_some(),
+        verdict,
         sections: vec![
             Section::answer().table(table).facts(facts(report)),
+            Section::page("Figures").figures(deviations::scenes(report)),
             positions.fold(Section::full("Positions"), Section::table),
         ],
         ..Document::default()
@@ -38,7 +45,7 @@ fn headline(report: &Report) -> String {
             ("ISO 230-6", vec![named("E_d", diagonals.systematic), named("B_d", diagonals.reversal)])
         }
         (None, [PositioningLine { evaluation, .. }, ..]) => {
-            let figures = match (&evaluation.bidirectional, evaluation.forward.or(evaluation.reverse)) {
+            let figures = match (&evaluation.bidirectional, evaluation.one_direction()) {
                 (Some(Bidirectional { accuracy, systematic, repeatability, reversal, .. }), _) => vec![
                     named("A", *accuracy),
                     named("E", Some(*systematic)),

@@ -4,8 +4,7 @@ use abbe::LengthUnit;
 use abbe_metrology::data::{Base, Layout, Map, Summary};
 use abbe_metrology::identify::ResidualDrift;
 use abbe_metrology::{AcceptanceVerdict, Decision, Judged, LimitCheck};
-use abbe_spec::Spec;
-use abbe_spec::option::NamedOption;
+use abbe_spec::{Spec, option::NamedOption};
 use abbe_study::Extrapolation;
 use abbe_study::dead_point::DeadPoint;
 use abbe_study::number::{self, digits, length, percent, quantity, short, unbroken};
@@ -38,11 +37,16 @@ pub(super) fn p_value(p: f64) -> String {
 
 /// States the verdict on a machine or its model.
 pub(super) fn accepted(verdict: &AcceptanceVerdict, unit: LengthUnit) -> Verdict {
+    accepted_by(verdict, |value| length(value, unit))
+}
+
+/// States a verdict with figures that `shown` formats.
+pub(super) fn accepted_by(verdict: &AcceptanceVerdict, shown: impl Fn(f64) -> String) -> Verdict {
     let limit = |limit: &LimitCheck| {
-        let [value, most] = [limit.value, limit.limit].map(|value| length(value, unit));
+        let [value, most] = [limit.value, limit.limit].map(&shown);
         let known = match limit.uncertainty {
             0.0 => String::new(),
-            uncertainty => format!(" ± {}", length(uncertainty, unit)),
+            uncertainty => format!(" ± {}", shown(uncertainty)),
         };
         let more = match limit.decision {
             Decision::Accepted => "",

@@ -157,7 +157,8 @@ fn positioned() -> Vec<(&'static str, Value)> {
     let report = |name: &str, text: &str, reading: Option<&str>| {
         let data = folder.path().join(name);
         std::fs::write(&data, text).unwrap();
-        let job = Positioning { data: (&data).into(), reading: reading.map(str::to_owned), scale: None };
+        let (reading, accept) = (reading.map(str::to_owned), reading.map(|_| "E 3um".to_owned()));
+        let job = Positioning { data: (&data).into(), reading, scale: None, accept };
         ("PositioningReport", json(&job.run(&mut ()).unwrap()))
     };
     vec![
