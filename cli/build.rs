@@ -2,8 +2,7 @@
 //! traced to its source: `ABBE_COMMIT` of the environment, the one that `cargo package` notes, or
 //! that of git.
 
-use std::path::Path;
-use std::process::Command;
+use std::{path::Path, process::Command};
 
 /// Sources that the command is compiled from, relative to this package.
 const SOURCES: [&str; 14] = [

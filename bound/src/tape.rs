@@ -1,7 +1,6 @@
 //! A tape: the operations of an expression graph in order of evaluation, with affine arithmetic.
 
-use std::collections::HashMap;
-use std::sync::Arc;
+use std::{collections::HashMap, sync::Arc};
 
 use abbe_codegen::graph::{Graph, Node, Op};
 use abbe_spec::expr::{Extrapolation, Function, Interpolation, Lookup, Symbol, Table};

@@ -15,8 +15,7 @@
 //! The unknowns of loops are those that are reached from home: the straight way from there is cut
 //! into pieces, each such a box of one dimension, whose solutions continue each other.
 
-use abbe_codegen::chain::Implicit;
-use abbe_codegen::graph::Graph;
+use abbe_codegen::{chain::Implicit, graph::Graph};
 use abbe_spec::expr::Symbol;
 use nalgebra::{DMatrix, DVector};
 

@@ -1,7 +1,6 @@
 //! `abbe bound`: certified upper bounds of the errors.
 
-use std::path::PathBuf;
-use std::time::Duration;
+use std::{path::PathBuf, time::Duration};
 
 use abbe_bound::Effort;
 use abbe_report::views;

@@ -2,12 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use abbe_metrology::data::Source;
-use abbe_metrology::doctor;
+use abbe_metrology::{data::Source, doctor};
 use abbe_report::views;
 use abbe_spec::expr::Dimension;
-use abbe_study::Notes;
-use abbe_study::options::quantity;
+use abbe_study::{Notes, options::quantity};
 use clap::{Args, ValueHint};
 
 use crate::arguments::{Showing, Subject, Writing};

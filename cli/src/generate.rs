@@ -1,7 +1,6 @@
 //! `abbe generate`: the closed form as source code.
 
-use std::ffi::OsString;
-use std::path::PathBuf;
+use std::{ffi::OsString, path::PathBuf};
 
 use abbe_study::Machine;
 use abbe_study::generate::{self, Fmi, Language, Real, archive};

@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use abbe::VariableKind;
-use abbe::identify::Loss;
+use abbe::{VariableKind, identify::Loss};
 use abbe_metrology::AcceptanceVerdict;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::options::{FOLDS, LOSSES, ONLY, TERMS};

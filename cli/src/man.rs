@@ -1,7 +1,6 @@
 //! `abbe man`: manual pages, one for `abbe` and one for each command.
 
-use std::io;
-use std::path::PathBuf;
+use std::{io, path::PathBuf};
 
 use clap::{Args, Command};
 

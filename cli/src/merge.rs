@@ -1,7 +1,6 @@
 //! `abbe merge`: merges the parts of an analysis into its report.
 
-use std::borrow::Cow;
-use std::path::PathBuf;
+use std::{borrow::Cow, path::PathBuf};
 
 use abbe_study::analyze::parts::{self, Part};
 use abbe_study::explore::Explore;

@@ -1,7 +1,6 @@
 //! Table of all formats, and the choice of one to write.
 
-use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::{ops::RangeInclusive, path::PathBuf};
 
 use abbe_spec::Notes;
 

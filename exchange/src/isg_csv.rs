@@ -10,8 +10,7 @@ use std::fmt::Write;
 
 use abbe::Pose;
 use abbe::analysis::sampling::vectors::{scale, subtract};
-use abbe_spec::number::digits;
-use abbe_spec::{Diagnostics, mistake};
+use abbe_spec::{Diagnostics, mistake, number::digits};
 
 use crate::export::report::{rounded, unreadable};
 use crate::export::rotary_axes::{TabledAxis, placed_difference};

@@ -12,8 +12,7 @@
 use std::fmt::Write;
 
 use abbe::Error;
-use abbe_spec::number::digits;
-use abbe_spec::{Diagnostics, mistake};
+use abbe_spec::{Diagnostics, mistake, number::digits};
 
 use crate::export::report::{rounded, unreadable};
 use crate::export::slides::{Axes, ErrorTable, Reference, tool_points};

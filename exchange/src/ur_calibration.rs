@@ -5,15 +5,12 @@
 //! Rx(roll)`; the joint turns about z after it. The nominal frames are those of Craig: z along the
 //! joint, x along the common normal with the previous joint, and `d` of a row within its joint.
 
-use std::f64::consts::FRAC_PI_2;
-use std::fmt::Write;
+use std::{f64::consts::FRAC_PI_2, fmt::Write};
 
 use abbe::analysis::sampling::JointAxis;
 use abbe::analysis::sampling::vectors::{cross, dot, scale, subtract, unit};
 use abbe::{Manipulator, Pose};
-use abbe_spec::number::digits;
-use abbe_spec::option::TO_URDF;
-use abbe_spec::{DhConvention, Diagnostics, mistake};
+use abbe_spec::{DhConvention, Diagnostics, mistake, number::digits, option::TO_URDF};
 
 use crate::dh::DhTable;
 use crate::export::origins::{Joint, origins};

@@ -1,8 +1,7 @@
 //! Evaluates a tape over a block of lanes. Each operation runs for all lanes before the next one,
 //! so that dispatch costs almost nothing.
 
-use std::cell::Cell;
-use std::sync::Arc;
+use std::{cell::Cell, sync::Arc};
 
 use abbe::Scalar;
 use abbe::lanes::{Kernel, Lanes, Register, Tiles};

@@ -7,8 +7,7 @@ use abbe_spec::keys::{Keys, Rule, Then, Value, When};
 use serde_json::{Map, Value as Json, json};
 
 use crate::{data, plan};
-use abbe_study::options::Choices;
-use abbe_study::{study_file, workspace};
+use abbe_study::{options::Choices, study_file, workspace};
 
 /// Kind of an input file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

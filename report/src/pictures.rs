@@ -1,9 +1,6 @@
 //! Files of an analysis: its figures, and the page with all of them.
 
-use abbe_study::analyze::Report;
-use abbe_study::analyze::figures::Figures;
-use abbe_study::explore;
-use abbe_study::study_file::Content;
+use abbe_study::{analyze::Report, analyze::figures::Figures, explore, study_file::Content};
 
 use crate::document::Figure;
 use crate::figures::{self, NamedFigure};

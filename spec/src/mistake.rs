@@ -1,8 +1,7 @@
 //! Diagnostics of a file, spec or option as a whole, without a span.
 
 use crate::option::DISABLE_NAME;
-use std::fmt::Display;
-use std::sync::Arc;
+use std::{fmt::Display, sync::Arc};
 
 use abbe_core::{Class, Component, Description, Effect, Error, Quantity, Remedy};
 

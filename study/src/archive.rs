@@ -3,8 +3,7 @@
 use std::io::{Cursor, Write};
 
 use abbe_codegen::print::SourceFile;
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
+use zip::{CompressionMethod, ZipWriter, write::SimpleFileOptions};
 
 /// Returns a zip archive of files, such as a functional mock-up unit. The bytes depend only on the
 /// files: all are dated 1980.

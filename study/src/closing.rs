@@ -3,8 +3,7 @@
 
 use abbe::analysis::decompose;
 use abbe_codegen::chain::LoopEquations;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, expr::Symbol};
 use nalgebra::{DMatrix, DVector};
 
 /// Maximum number of steps.

@@ -1,9 +1,7 @@
 //! Configurations outside the fitted ranges of an identified machine, and the uncertainty there.
 
-use abbe::Manipulator;
-use abbe::analysis::sampling;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe::{Manipulator, analysis::sampling};
+use abbe_spec::{Spec, expr::Symbol};
 use serde::Serialize;
 
 use crate::calibration::{CalibrationErrors, Prediction};

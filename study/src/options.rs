@@ -2,13 +2,10 @@
 //!
 //! Options of a job are in `options.rs` of its folder.
 
-use std::fmt::Display;
-use std::ops::RangeInclusive;
+use std::{fmt::Display, ops::RangeInclusive};
 
 use abbe::LengthUnit;
-use abbe_spec::expr::Dimension;
-use abbe_spec::value::parse_value;
-use abbe_spec::{DhConvention, Document};
+use abbe_spec::{DhConvention, Document, expr::Dimension, value::parse_value};
 
 use crate::Result;
 

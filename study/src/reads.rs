@@ -1,7 +1,6 @@
 //! Input files of jobs, which output must not overwrite.
 
-use std::borrow::Cow;
-use std::path::PathBuf;
+use std::{borrow::Cow, path::PathBuf};
 
 use crate::check::Check;
 use crate::export::{Export, Format};

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe::Pose;
-use abbe::identify::Observation;
+use abbe::{Pose, identify::Observation};
 use abbe_spec::Spec;
 use serde::Serialize;
 

@@ -2,8 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use abbe_spec::edit::Edits;
-use abbe_spec::edit::write::quoted;
+use abbe_spec::{edit::Edits, edit::write::quoted};
 
 /// Returns the text of a spec in the folder `from` as a file in the folder `to` needs it: relative
 /// paths of tables lead to the same files.

@@ -5,8 +5,7 @@ use rand_distr::StudentT;
 
 use crate::parts::{longest, outer_sum};
 use crate::{Configuration, Measurand, Unevaluated, sweep};
-use abbe_core::lanes::Sweepable;
-use abbe_core::{Class, Description, Distribution, Error};
+use abbe_core::{Class, Description, Distribution, Error, lanes::Sweepable};
 use abbe_kinematics::one;
 use abbe_kinematics::sampling::{draw_parts, norm};
 

@@ -3,8 +3,7 @@
 use core::borrow::Borrow;
 
 use super::{Camera, Distances, EvaluatedModel, Figures, Measurement, Model, Observation, Result, by_blocks};
-use abbe_analysis::sampling;
-use abbe_analysis::sampling::vectors::subtract as difference;
+use abbe_analysis::{sampling, sampling::vectors::subtract as difference};
 use abbe_core::Pose;
 
 impl EvaluatedModel<'_> {

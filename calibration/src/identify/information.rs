@@ -2,12 +2,12 @@
 
 use core::convert::Infallible;
 
-use nalgebra::allocator::Allocator;
-use nalgebra::{Cholesky, Const, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
+use nalgebra::{
+    Cholesky, Const, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix, allocator::Allocator,
+};
 
 use super::{EvaluatedModel, Measurement, Model, Observation, Result, by_blocks};
-use abbe_analysis::decompose::symmetric_eigen;
-use abbe_analysis::in_order;
+use abbe_analysis::{decompose::symmetric_eigen, in_order};
 
 /// Criterion of an optimal design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -20,8 +20,7 @@
 //! the difference δ' before row k, row i shows the share `c_i = δᵀD_iᵀ(r_i − D_i δ')/|D_i δ|²` of the
 //! motion: medians of c over the nearest rows tell.
 
-use core::borrow::Borrow;
-use core::f64::consts::FRAC_PI_2;
+use core::{borrow::Borrow, f64::consts::FRAC_PI_2};
 
 use nalgebra::{DMatrix, DVector};
 

@@ -6,8 +6,7 @@ use rand::{Rng, RngExt};
 use rand_distr::Normal;
 
 use super::{Failure, Measurement, Model, Observation, Result, Unknown};
-use abbe_analysis::ErrorParts;
-use abbe_analysis::sampling::stream;
+use abbe_analysis::{ErrorParts, sampling::stream};
 use abbe_core::{Class, VariableKind, displacement};
 
 /// Random contributions to simulated measurements.

@@ -1,11 +1,9 @@
 //! CSV files of an analysis: all digits, coherent units of the spec, units in the headings.
 
-use std::io::Write;
-use std::path::Path;
+use std::{io::Write, path::Path};
 
 use abbe::analysis::{Configuration, Figures, Row};
-use abbe_spec::Spec;
-use abbe_spec::csv_writer::harmless;
+use abbe_spec::{Spec, csv_writer::harmless};
 use abbe_study::analyze::{Analyze, MonteCarloReport, Report, unreachable_reason};
 use abbe_study::number::class;
 use abbe_study::study_file::{CombinedFigure, Metric};

@@ -9,9 +9,7 @@ use std::path::{Path, PathBuf};
 use abbe_report::Document;
 use abbe_report::text::{Detail, next};
 use abbe_spec::{Diagnostics, Spec};
-use abbe_study::analyze::parts::Change;
-use abbe_study::options::THREADS;
-use abbe_study::{Machine, RunRecord, Study, check_date};
+use abbe_study::{Machine, RunRecord, Study, analyze::parts::Change, check_date, options::THREADS};
 use clap::{Args, ValueHint};
 use serde::Serialize;
 

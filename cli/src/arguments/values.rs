@@ -1,10 +1,8 @@
 //! Parsers of option values.
 
-use std::ops::RangeInclusive;
-use std::time::Duration;
+use std::{ops::RangeInclusive, time::Duration};
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Dimension;
+use abbe_spec::{Spec, expr::Dimension};
 use abbe_study::options::{self, Choices};
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 

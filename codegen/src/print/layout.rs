@@ -6,8 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use abbe_core::Description;
-use abbe_core::function::Array;
+use abbe_core::{Description, function::Array};
 use abbe_spec::visible::alters_text;
 
 /// Maximum length of a line.

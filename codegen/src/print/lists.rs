@@ -4,8 +4,7 @@
 
 use abbe_core::Description;
 use abbe_core::compensator::{CHANGE, LARGEST, Status, bound};
-use abbe_spec::Spec;
-use abbe_spec::literal::quoted;
+use abbe_spec::{Spec, literal::quoted};
 
 use super::Writer;
 use crate::program::{Operand, Program, Routines, Sums, Table};

@@ -2,8 +2,7 @@
 
 use std::collections::HashSet;
 
-use abbe_core::Description;
-use abbe_core::function::Count;
+use abbe_core::{Description, function::Count};
 use abbe_spec::{Spec, Symbol};
 
 use super::body::body;

@@ -1,7 +1,6 @@
 //! Operation counts, a simple measure of the quality of a program.
 
-use std::fmt;
-use std::ops::AddAssign;
+use std::{fmt, ops::AddAssign};
 
 use abbe_spec::Function;
 

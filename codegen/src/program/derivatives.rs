@@ -1,7 +1,6 @@
 //! Derivatives of the results of a function by the structural parameters.
 
-use abbe_core::Function;
-use abbe_core::function::Count;
+use abbe_core::{Function, function::Count};
 use abbe_spec::{Spec, Symbol};
 
 use super::routines::at_once;

@@ -5,8 +5,7 @@
 //! routine, or a table of sums. Most functions are one program that reads the arguments as symbols
 //! and writes whole results.
 
-use abbe_core::function::Count;
-use abbe_core::{Description, Function};
+use abbe_core::{Description, Function, function::Count};
 
 use super::{Operations, Program};
 

@@ -1,7 +1,6 @@
 //! The functions of a tree of frames: they find the passive variables first.
 
-use abbe_core::Function;
-use abbe_core::function::Count;
+use abbe_core::{Function, function::Count};
 use abbe_spec::Symbol;
 
 use super::{Array, ArrayRows, Block, Operand, Program, Repeated, Role, Rounded, Stage};

@@ -5,8 +5,7 @@
 use std::str::FromStr;
 
 use abbe::{LengthUnit, Manipulator, Pose, VariableKind};
-use abbe_spec::option::TO_URDF;
-use abbe_spec::{DhConvention, DhNumber, Diagnostics, mistake};
+use abbe_spec::{DhConvention, DhNumber, Diagnostics, mistake, option::TO_URDF};
 
 use crate::export::{RealMachine, about_x, about_z};
 

@@ -8,8 +8,7 @@ use std::sync::Arc;
 use abbe::analysis::{Configuration, Workspace, random_joint_samples, sampling};
 use abbe::{Class, Error, Manipulator, Pose, drawn_pose, real_pose};
 use abbe_interpreter::Interpreter;
-use abbe_spec::option::SET;
-use abbe_spec::{DhConvention, Diagnostics, Dimension, Spec, mistake, number};
+use abbe_spec::{DhConvention, Diagnostics, Dimension, Spec, mistake, number, option::SET};
 
 use super::{Cause, ChainErrors, ErrorModel, Link, PoseDifference, about_x, about_z};
 

@@ -3,8 +3,7 @@
 use std::fmt::Display;
 
 use abbe::Pose;
-use abbe_spec::number::digits;
-use abbe_spec::{Diagnostics, mistake};
+use abbe_spec::{Diagnostics, mistake, number::digits};
 use serde::Serialize;
 
 use super::{PoseDifference, RealMachine, RotaryAxis};

@@ -5,8 +5,7 @@
 
 use abbe::analysis::sampling::vectors::{add, cross, subtract};
 use abbe::{Error, Manipulator, Orientation, Pose, VariableKind, deviation, real_pose};
-use abbe_spec::option::TO_TABLE;
-use abbe_spec::{Diagnostics, mistake};
+use abbe_spec::{Diagnostics, mistake, option::TO_TABLE};
 
 use super::{ChainErrors, RealMachine, product};
 

@@ -7,8 +7,7 @@
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use abbe::LengthUnit;
-use abbe_spec::option::ROUND_ANGLES;
-use abbe_spec::{DhConvention, Notes};
+use abbe_spec::{DhConvention, Notes, option::ROUND_ANGLES};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use crate::placement::{Placement, joint_motion};

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe::Manipulator;
-use abbe::analysis::sampling;
+use abbe::{Manipulator, analysis::sampling};
 use abbe_interpreter::Interpreter;
 use abbe_spec::{Diagnostics, Notes, Spec, mistake};
 use serde::Serialize;

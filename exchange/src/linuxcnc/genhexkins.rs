@@ -12,10 +12,8 @@
 
 use std::fmt::Write;
 
-use abbe::analysis::sampling;
-use abbe::{Manipulator, Pose};
-use abbe_spec::option::TO_URDF;
-use abbe_spec::{Diagnostics, Loop, Symbol, mistake};
+use abbe::{Manipulator, Pose, analysis::sampling};
+use abbe_spec::{Diagnostics, Loop, Symbol, mistake, option::TO_URDF};
 
 use crate::export::origins::moves;
 use crate::export::{ExportReport, ExportedFile, RealMachine};

@@ -5,8 +5,7 @@
 
 use std::fmt::Write;
 
-use abbe::analysis::sampling::grid;
-use abbe::{Error, Manipulator, VariableKind};
+use abbe::{Error, Manipulator, VariableKind, analysis::sampling::grid};
 use abbe_spec::number::digits;
 
 use crate::export::rotary_axes::angle_error;

@@ -1,8 +1,7 @@
 //! Nominal chain of a URDF file, joint by joint.
 
 use abbe::Pose;
-use abbe_spec::option::BASE;
-use abbe_spec::{Diagnostic, Document};
+use abbe_spec::{Diagnostic, Document, option::BASE};
 use nalgebra::Isometry3;
 
 use super::read::{Ends, read};

@@ -6,8 +6,7 @@ use super::joint_chain::JointChain;
 use super::search::Search;
 use super::target_search::Problem;
 use super::{ReachError, Target, generated};
-use abbe_core::Manipulator;
-use abbe_core::lanes::InstructionSet;
+use abbe_core::{Manipulator, lanes::InstructionSet};
 
 /// Computes values of the variables in `free` that bring the tool to `target`, with the others
 /// fixed as in `start`.

@@ -1,7 +1,6 @@
 //! Sequence of descents for one target: their starts, within limits or without.
 
-use core::f64::consts::TAU;
-use core::ops::ControlFlow;
+use core::{f64::consts::TAU, ops::ControlFlow};
 
 use super::{ReachError, SumLimits};
 use crate::sampling;

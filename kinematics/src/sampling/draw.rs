@@ -5,8 +5,7 @@ use core::f64::consts::TAU;
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 
-use abbe_core::Distribution;
-use abbe_core::sampling::norm;
+use abbe_core::{Distribution, sampling::norm};
 
 /// Draws an error of magnitude 1: within ±1 if bounded, with a standard deviation of 1 if normal.
 /// The parts of a ball or disc are drawn together; any other error has one part, and zeros.

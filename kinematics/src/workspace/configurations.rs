@@ -8,8 +8,7 @@
 
 use core::ops::Range;
 
-use abbe_core::lanes::Tiles;
-use abbe_core::{Error, Manipulator, Quantity, checks};
+use abbe_core::{Error, Manipulator, Quantity, checks, lanes::Tiles};
 
 use crate::{Configuration, ReachError, SumLimits};
 

@@ -9,11 +9,9 @@
 //! A workspace repeated for combinations of input values.
 
 use core::ops::Range;
-use std::fmt;
-use std::sync::Arc;
+use std::{fmt, sync::Arc};
 
-use abbe_core::lanes::Tiles;
-use abbe_core::{Error, Manipulator, Quantity};
+use abbe_core::{Error, Manipulator, Quantity, lanes::Tiles};
 
 use super::configurations::Indexed;
 use super::{Show, Workspace};

@@ -5,8 +5,7 @@ pub mod program;
 mod rows;
 
 use abbe_interpreter::Interpreter;
-use abbe_spec::option::POSES;
-use abbe_spec::{Diagnostics, Spec};
+use abbe_spec::{Diagnostics, Spec, option::POSES};
 use serde::Serialize;
 
 use crate::data::{Base, Channel, Data, Heading, Layout, Map, Summary, Table, Unusable};

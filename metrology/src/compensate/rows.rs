@@ -6,8 +6,7 @@
 //!
 //! Compensation of single commands, without a data file.
 
-use std::convert::Infallible;
-use std::ops::ControlFlow;
+use std::{convert::Infallible, ops::ControlFlow};
 
 use abbe::analysis::{
     Goal, Missing, Obstacle, ReachError, Target, compensated, in_order_until, inverse, mobility, obstacle,

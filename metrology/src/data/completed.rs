@@ -2,13 +2,10 @@
 
 use std::borrow::Cow;
 
-use abbe::Manipulator;
-use abbe::analysis::sampling::nominal_parameters;
-use abbe::identify::Observation;
+use abbe::{Manipulator, analysis::sampling::nominal_parameters, identify::Observation};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
-use abbe_study::open_loops::open_loops;
-use abbe_study::{Result, mistake};
+use abbe_study::{Result, mistake, open_loops::open_loops};
 
 use super::rows::{Data, SHOWN};
 use super::{Channel, Map, in_order, set_input, with_references};

@@ -1,8 +1,7 @@
 //! Grouping of rows into configurations: joints and inputs that agree within their resolution.
 
 use abbe::identify::Observation;
-use abbe_spec::Spec;
-use abbe_spec::expr::Unit;
+use abbe_spec::{Spec, expr::Unit};
 
 use abbe_study::workspace::has_range;
 

@@ -1,10 +1,7 @@
 //! Inputs that are computed from the rows: from their order, or from the pose of the machine.
 
-use abbe::identify::Observation;
-use abbe::{Manipulator, Pose, tool_pose};
-use abbe_spec::Spec;
-use abbe_spec::edit::TableText;
-use abbe_spec::edit::write::quoted;
+use abbe::{Manipulator, Pose, identify::Observation, tool_pose};
+use abbe_spec::{Spec, edit::TableText, edit::write::quoted};
 
 /// Rule by which an input is computed from the rows. Its value is −1, 0 or 1.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,6 @@
 //! Maps: the meaning of the columns of a data file.
 
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use abbe::Pose;
 use abbe::analysis::Configuration;
@@ -12,9 +11,7 @@ use super::command_pose::CommandPose;
 use super::configurations::resolution;
 use super::{Channel, Column, Instruments, Placement, Scale, Sight, Stations, TargetFrame, Turn};
 use crate::Acceptance;
-use abbe_study::number::short;
-use abbe_study::workspace::has_range;
-use abbe_study::{Machine, Result, RunRecord, mistake};
+use abbe_study::{Machine, Result, RunRecord, mistake, number::short, workspace::has_range};
 
 /// A target on the end effector.
 #[derive(Clone, Debug)]

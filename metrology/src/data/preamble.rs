@@ -6,8 +6,7 @@ use abbe_spec::bounded::UnreadableFile;
 use csv::StringRecord;
 
 use super::dialect::{Dialect, SEPARATORS};
-use abbe_study::lines::RecordedReader;
-use abbe_study::number::counted;
+use abbe_study::{lines::RecordedReader, number::counted};
 
 /// Number of records that are examined.
 const LOOKED_AT: usize = 40;

@@ -1,12 +1,9 @@
 //! Reader of a map.
 
-use abbe_spec::option::MAP;
-use std::path::Path;
-use std::sync::Arc;
+use abbe_spec::{Diagnostic, Document, Item, Section, Spec, expr::Dimension, option::MAP};
+use std::{path::Path, sync::Arc};
 
 use abbe::identify::{Uncertainty, register};
-use abbe_spec::expr::Dimension;
-use abbe_spec::{Diagnostic, Document, Item, Section, Spec};
 
 use super::choices::{BASES, COMMANDS, JUDGED_TARGETS, QUATERNION_ORDERS};
 use super::command_pose::CommandPose;

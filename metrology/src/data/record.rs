@@ -1,10 +1,8 @@
 //! One row below a heading.
 
-use std::borrow::Cow;
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
-use abbe_spec::csv_writer::meant;
-use abbe_spec::expr::LARGEST;
+use abbe_spec::{csv_writer::meant, expr::LARGEST};
 use csv::StringRecord;
 
 use super::cells::Cells;

@@ -1,7 +1,6 @@
 //! Line of sight of an instrument: where it can see the targets of a plan.
 
-use abbe::Pose;
-use abbe::analysis::sampling::vectors::dot;
+use abbe::{Pose, analysis::sampling::vectors::dot};
 
 /// Cone: its axis, and the cosine of its half-angle.
 pub(super) type Cone = ([f64; 3], f64);

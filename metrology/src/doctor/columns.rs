@@ -1,7 +1,6 @@
 //! Columns of a file or table: joint values and measured poses.
 
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::listed;
+use abbe_spec::{Spec, diagnostic::listed};
 
 use crate::data::{RawTable, Source, raw_table};
 use crate::interpretations::{PoseFormat, configurations};

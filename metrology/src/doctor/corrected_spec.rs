@@ -4,18 +4,14 @@
 //! factors in reverse order. A coupled joint, and the zeros of a coupled machine, are inserted at
 //! the variable: with column values c, `q3` becomes `(q3 + q2 + zero)`.
 
-use std::ops::Range;
-use std::path::Path;
+use std::{ops::Range, path::Path};
 
 use abbe::VariableKind;
-use abbe_spec::edit::Edits;
-use abbe_spec::edit::write::quoted;
-use abbe_spec::{Item, Spec};
+use abbe_spec::{Item, Spec, edit::Edits, edit::write::quoted};
 
 use super::job::Report;
 use crate::interpretations::{Change, words};
-use abbe_study::Result;
-use abbe_study::number::digits;
+use abbe_study::{Result, number::digits};
 
 /// Keys that place a frame or the tool.
 const PLACEMENT_KEYS: [&str; 5] = ["transform", "matrix", "dh", "mdh", "origin"];

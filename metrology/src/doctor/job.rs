@@ -2,8 +2,7 @@
 //!
 //! Report of `abbe doctor`.
 
-use abbe_study::number::digits;
-use abbe_study::{About, Machine, Notes, Result, mistake};
+use abbe_study::{About, Machine, Notes, Result, mistake, number::digits};
 use serde::Serialize;
 
 use super::columns::Columns;

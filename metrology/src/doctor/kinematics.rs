@@ -1,7 +1,6 @@
 //! Poses of a spec, split into base, the frames up to the tool, and tool.
 
-use abbe::analysis::sampling;
-use abbe::{Error, Manipulator, Pose, VariableKind};
+use abbe::{Error, Manipulator, Pose, VariableKind, analysis::sampling};
 use abbe_interpreter::Interpreter;
 use abbe_spec::{DhConvention, Frame, Spec};
 

@@ -4,8 +4,7 @@ use abbe::identify::{BetweenBlocks, Failure, Folds, between_blocks};
 
 use super::{BLOCKS, Solved, diagnose};
 use crate::data::Data;
-use abbe_study::Result;
-use abbe_study::number::digits;
+use abbe_study::{Result, number::digits};
 
 /// Largest probability by chance at which a variance between blocks is included.
 const CHANCE: f64 = 0.01;

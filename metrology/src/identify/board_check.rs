@@ -3,8 +3,7 @@
 use abbe::identify::{Model, Observable, Observation};
 
 use crate::data::Data;
-use abbe_study::number::digits;
-use abbe_study::{Result, mistake};
+use abbe_study::{Result, mistake, number::digits};
 
 /// Largest number of views that are tested.
 const VIEWS: usize = 40;

@@ -1,9 +1,7 @@
 //! Candidate terms and the order in which they are tried.
 
-use abbe::identify::Observation;
-use abbe::{Component, VariableKind};
-use abbe_codegen::chain::frame_twists;
-use abbe_codegen::graph::Graph;
+use abbe::{Component, VariableKind, identify::Observation};
+use abbe_codegen::{chain::frame_twists, graph::Graph};
 use abbe_spec::{ChainNumber, Factor, Frame, Spec};
 
 use super::options::family_name;

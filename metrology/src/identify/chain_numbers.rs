@@ -3,8 +3,7 @@
 //!
 //! Zeros of legs, which no constant errors of frames are equal to.
 
-use abbe::Component;
-use abbe::identify::Unknown;
+use abbe::{Component, identify::Unknown};
 use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
 use abbe_codegen::graph::{Frame, Graph, Node};
 use abbe_spec::expr::{Dimension, Symbol};

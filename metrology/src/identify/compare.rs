@@ -1,7 +1,6 @@
 //! Position errors of the fitted and of the delivered machine on the same rows.
 
-use abbe::LengthUnit;
-use abbe::identify::Model;
+use abbe::{LengthUnit, identify::Model};
 use abbe_spec::option::TERMS;
 
 use super::{Compared, Setup, Solved};

@@ -2,11 +2,8 @@
 
 use std::borrow::Cow;
 
-use abbe::identify::Observation;
-use abbe::{Component, Manipulator, VariableKind};
-use abbe_spec::edit::write::free_name;
-use abbe_spec::expr::Dimension;
-use abbe_spec::{Input, Spec};
+use abbe::{Component, Manipulator, VariableKind, identify::Observation};
+use abbe_spec::{Input, Spec, edit::write::free_name, expr::Dimension};
 
 use super::{Basis, ErrorSite, Family, Term};
 use crate::data::{

@@ -3,9 +3,7 @@
 use abbe::Component;
 use abbe::analysis::sampling::range_of;
 use abbe::identify::{Configurations, Unknown};
-use abbe_spec::expr::Symbol;
-use abbe_spec::visible::alters_text;
-use abbe_spec::{Fitted, Spec};
+use abbe_spec::{Fitted, Spec, expr::Symbol, visible::alters_text};
 
 use super::found_covariance::FoundCovariance;
 use super::{
@@ -13,8 +11,7 @@ use super::{
     Solved, Term,
 };
 use crate::data::Data;
-use abbe_study::number::digits;
-use abbe_study::version;
+use abbe_study::{number::digits, version};
 
 /// Identified model of a machine: constant errors, and terms with their magnitudes.
 #[derive(Clone, Debug, Default)]

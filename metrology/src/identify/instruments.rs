@@ -7,8 +7,7 @@ use serde::Serialize;
 use super::priors::fit_with_places;
 use super::{Settings, Setup, diagnose};
 use crate::data::{Data, Map};
-use abbe_study::number::digits;
-use abbe_study::{Result, mistake};
+use abbe_study::{Result, mistake, number::digits};
 
 /// Largest number of iterations of the estimation.
 const ROUNDS: usize = 25;

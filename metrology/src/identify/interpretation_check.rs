@@ -1,8 +1,7 @@
 //! Tests the interpretation of the data. The [search](crate::interpretations) tries other units,
 //! signs, column orders and formats than the map states, with base and tool fitted.
 
-use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::{cmp::Reverse, collections::BTreeMap};
 
 use abbe::identify::{Measurement, Model, Observation, Options, Station, Uncertainty, fit};
 use abbe::{Error, Pose, VariableKind};

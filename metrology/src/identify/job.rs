@@ -2,13 +2,11 @@
 //!
 //! Detects test rows that were also fitted and therefore cannot assess the fit.
 
-use std::borrow::Cow;
-use std::collections::HashSet;
+use std::{borrow::Cow, collections::HashSet};
 
 use abbe::identify::{Configurations, Distances, Failure, Selection, drift};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
-use abbe_spec::option::TEST;
+use abbe_spec::{Spec, option::TEST};
 use abbe_study::{About, Machine, Notes, Result, finite};
 
 use super::alternatives::{Explanations, target_on_axis};

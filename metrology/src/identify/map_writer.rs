@@ -8,8 +8,7 @@ use abbe_spec::{Item, Section, Spec};
 use super::derived::with_inputs;
 use super::{FoundModel, FoundPlacement, InstrumentFit, PlacementAtStation};
 use crate::data::{Map, TargetFrame, UNKNOWN, quaternion};
-use abbe_study::Result;
-use abbe_study::number::digits;
+use abbe_study::{Result, number::digits};
 
 impl FoundModel {
     /// Returns the map of the data with the identified placement and the uncertainties estimated

@@ -1,8 +1,6 @@
 //! Options of an identification.
 
-use std::fmt;
-use std::str::FromStr;
-use std::time::Duration;
+use std::{fmt, str::FromStr, time::Duration};
 
 use abbe::identify::Loss;
 

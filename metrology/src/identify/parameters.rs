@@ -5,8 +5,7 @@ use abbe_spec::Spec;
 
 use super::extended::OwnMagnitude;
 use super::{AsJointErrors, Kind, Magnitude, MagnitudeSum, Pair, Parameter, Redundant, Setup, Solved};
-use abbe_study::IsoAxis;
-use abbe_study::number::digits;
+use abbe_study::{IsoAxis, number::digits};
 
 /// Returns the identified magnitudes of the sources of the spec.
 pub(super) fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {

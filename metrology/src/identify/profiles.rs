@@ -19,8 +19,7 @@ use abbe_spec::{ChainNumber, Deviation, DeviationCause, Source, Spec, Variable};
 use super::as_joint_errors::number_terms;
 use super::profile_table::{ProfileTable, table_name};
 use super::{ErrorSite, Family, FitInput, JointProfile, JointProfiles, Setup, Solved, solve};
-use abbe_study::number::digits;
-use abbe_study::{About, Notes, Result, mistake};
+use abbe_study::{About, Notes, Result, mistake, number::digits};
 
 /// Significance level of the paired test.
 const CHANCE: f64 = 0.01;

@@ -1,7 +1,6 @@
 //! Reads the written spec back: its position errors on the rows of the fit.
 
-use std::borrow::Cow;
-use std::path::Path;
+use std::{borrow::Cow, path::Path};
 
 use abbe::identify::Figures;
 use abbe_interpreter::Interpreter;

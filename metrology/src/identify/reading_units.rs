@@ -6,8 +6,7 @@ use abbe::identify::{Failure, Measurement, SizeInformation};
 use super::setup::Setup;
 use crate::data::{Data, Instrument, Map};
 use crate::interpretations::LENGTHS;
-use abbe_study::number::digits;
-use abbe_study::{About, Result, mistake};
+use abbe_study::{About, Result, mistake, number::digits};
 
 /// Relative deviation of a ratio from that of two units at which they explain it.
 const NEAR: f64 = 0.1;

@@ -8,9 +8,7 @@
 //!
 //! Errors that the data determine poorly.
 
-use std::borrow::Cow;
-use std::fmt;
-use std::sync::Arc;
+use std::{borrow::Cow, fmt, sync::Arc};
 
 use abbe::identify::{
     Drift, Fit, FixtureGeometry, Identifiable, Independent, Model, Unknown, deviation_beyond, student_factor,
@@ -18,8 +16,7 @@ use abbe::identify::{
 use abbe::{LengthUnit, Pose};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
-use abbe_study::extrapolation::ToolPointDeviation;
-use abbe_study::{Residual, Residuals, RunRecord};
+use abbe_study::{Residual, Residuals, RunRecord, extrapolation::ToolPointDeviation};
 use serde::Serialize;
 
 use super::{

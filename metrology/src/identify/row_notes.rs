@@ -3,12 +3,11 @@
 //!
 //! Gross errors: rows far from a robust fit.
 
-use abbe::analysis::sampling::norm;
 use abbe::identify::{
     Failure, Fit, Loss, Measurement, Model, MovedPlace, Observation, Options, Unknown, fit, moved_places,
     robust_scale,
 };
-use abbe::{Component, Pose, rotation_vector};
+use abbe::{Component, Pose, analysis::sampling::norm, rotation_vector};
 use abbe_spec::option::{ROBUST_TUKEY, STATION_NEW};
 use abbe_study::number::{digits, length, percent};
 

@@ -5,11 +5,10 @@
 //! same in all rows. Prismatic joints have known travel, and known distances between fixtures are
 //! lengths, so that both define the scale.
 
-use abbe::analysis::sampling;
 use abbe::identify::{
     Failure, Measurement, Model, Observable, Observation, ReferenceLength, SizeInformation, Unknown, groups,
 };
-use abbe::{Component, Error, Pose, VariableKind};
+use abbe::{Component, Error, Pose, VariableKind, analysis::sampling};
 
 use abbe_study::number::digits;
 

@@ -11,8 +11,7 @@ use super::priors::{Prior, fit_with_places};
 use super::row_notes::outlier_warning;
 use super::{Basis, ErrorSite, JointProfiles, Settings, Setup, Term};
 use crate::data::Data;
-use abbe_study::number::digits;
-use abbe_study::{Notes, Result, mistake};
+use abbe_study::{Notes, Result, mistake, number::digits};
 
 /// Share of the prior of constant terms that are held at zero.
 const HELD: f64 = 1e-9;

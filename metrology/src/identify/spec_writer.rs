@@ -12,8 +12,7 @@ use abbe_spec::{Fitted, Section, Spec};
 use super::derived::{Derived, with_inputs};
 use super::profile_table::table_name;
 use super::{Basis, ErrorSite, FoundError, FoundMagnitude, FoundModel, FoundTerm, Term};
-use abbe_study::Result;
-use abbe_study::number::digits;
+use abbe_study::{Result, number::digits};
 
 /// Spec of an identified machine.
 #[derive(Clone, Debug)]

@@ -1,8 +1,6 @@
 //! Terms of richer models: error functions with an unknown magnitude each.
 
-use abbe::analysis::sampling::range_of;
-use abbe::identify::Observation;
-use abbe::{Component, VariableKind};
+use abbe::{Component, VariableKind, analysis::sampling::range_of, identify::Observation};
 use abbe_spec::edit::write::number;
 use abbe_spec::expr::{Dimension, Motion};
 use abbe_spec::{ChainNumber, DhNumber, Spec};

@@ -1,7 +1,6 @@
 //! Distance between two lists of poses.
 
-use abbe::Pose;
-use abbe::identify::f_test;
+use abbe::{Pose, identify::f_test};
 
 /// Residuals as root mean squares.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,6 @@
 //! Evaluates interpretations and their residuals.
 
-use abbe::analysis::sampling::norm;
-use abbe::{Error, Pose, VariableKind};
+use abbe::{Error, Pose, VariableKind, analysis::sampling::norm};
 
 use super::joints::{JointUnits, Length, configurations, joint_values};
 use super::observed::{Observed, spread};

@@ -1,7 +1,6 @@
 //! Describes interpretations as statements, and as questions about a map.
 
-use abbe::analysis::sampling;
-use abbe::{Pose, VariableKind, rotation_vector};
+use abbe::{Pose, VariableKind, analysis::sampling, rotation_vector};
 use abbe_spec::Spec;
 
 use super::{Candidate, Change, Interpretation, PoseFormat};

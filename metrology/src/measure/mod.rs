@@ -14,8 +14,7 @@ use std::borrow::Cow;
 use abbe::identify::{self, Figures, Observation, drift};
 use abbe::{LengthUnit, Pose};
 use abbe_interpreter::Interpreter;
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::option::option;
+use abbe_spec::{diagnostic::Diagnostics, option::option};
 use serde::Serialize;
 
 use crate::acceptance::{FITTED, TARGET};

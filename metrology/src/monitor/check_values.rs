@@ -5,8 +5,7 @@
 use abbe::identify::{Failure, Model, Station, Unknown};
 use abbe::{Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::calibration::random_sources;
-use abbe_study::{About, Notes, Residual, Residuals, Result, mistake};
+use abbe_study::{About, Notes, Residual, Residuals, Result, calibration::random_sources, mistake};
 
 use super::checks::{Check, Checks};
 use super::configurations::{Configurations, Visits};

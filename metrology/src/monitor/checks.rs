@@ -1,7 +1,6 @@
 //! Checks of a machine in chronological order.
 
-use std::borrow::Cow;
-use std::mem::take;
+use std::{borrow::Cow, mem::take};
 
 use abbe::identify::Observation;
 use abbe_interpreter::Interpreter;

@@ -3,8 +3,7 @@
 //! Report of monitoring.
 
 use abbe_interpreter::Interpreter;
-use abbe_study::date::Calendar;
-use abbe_study::{Machine, Notes, Residuals, Result, RunRecord, finite, number};
+use abbe_study::{Machine, Notes, Residuals, Result, RunRecord, date::Calendar, finite, number};
 use serde::Serialize;
 
 use super::charts::{Chart, Limit, charts};

@@ -22,8 +22,7 @@ use crate::identify::{
     Counts, Prior, Setup, WeaklyDetermined, extended, indistinguishable, nothing_readable, own_magnitudes,
     readable_configurations, redundant, scale_note,
 };
-use abbe_study::workspace::has_range;
-use abbe_study::{About, Machine, Notes, Result, Study, finite, mistake};
+use abbe_study::{About, Machine, Notes, Result, Study, finite, mistake, workspace::has_range};
 
 pub use keys::{TABLES, rules};
 pub use report::{Input, Predicted, Report, UndeterminedError};

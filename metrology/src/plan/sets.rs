@@ -2,12 +2,11 @@
 //!
 //! `docs/reference/plan.md` describes every key.
 
-use abbe_spec::option::SETS;
+use abbe_spec::{Diagnostic, Section, Spec, option::SETS};
 use std::path::{Path, PathBuf};
 
 use abbe::analysis::{Axis, Configuration, Workspace, joint_grid};
 use abbe::{Error, Manipulator};
-use abbe_spec::{Diagnostic, Section, Spec};
 use serde::Serialize;
 
 use super::keys;

@@ -2,21 +2,18 @@
 
 pub mod options;
 
-use abbe_spec::option::SAMPLES;
+use abbe_spec::{Diagnostics, Input, option::SAMPLES};
 use std::borrow::Cow;
 
 use abbe::Manipulator;
 use abbe::analysis::{JointSamples, Workspace, random_joint_samples};
 use abbe::identify::{Chance, Failure, Observation, Simulated, Uncertainty};
 use abbe_interpreter::Interpreter;
-use abbe_spec::{Diagnostics, Input};
 use serde::Serialize;
 
 use crate::data::{Channel, Data, Heading, Instruments, Map, Table};
 use crate::identify::{Setup, nothing_readable, readable_configurations};
-use abbe_study::number::quantity;
-use abbe_study::workspace::has_range;
-use abbe_study::{About, Machine, Notes, Result, finite, mistake};
+use abbe_study::{About, Machine, Notes, Result, finite, mistake, number::quantity, workspace::has_range};
 
 /// Number of random configurations tried for each one at which instruments can be read.
 const TRIES: usize = 20;

@@ -1,7 +1,6 @@
 //! Tick positions of an axis.
 
-use abbe_study::date::Calendar;
-use abbe_study::number;
+use abbe_study::{date::Calendar, number};
 
 use crate::scene::{Axis, Scale};
 

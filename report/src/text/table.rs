@@ -1,8 +1,6 @@
 //! Tables for people: columns under a ruled heading, and wrapped sentences.
 
-use std::cell::Cell;
-use std::fmt;
-use std::ops::RangeInclusive;
+use std::{cell::Cell, fmt, ops::RangeInclusive};
 
 use abbe_study::number::NO_BREAK;
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, TableStyle, Width};

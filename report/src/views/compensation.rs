@@ -3,8 +3,7 @@
 use abbe::{Class, Description, VariableKind};
 use abbe_metrology::compensate::{NormStatistics, Report, RowSummary};
 use abbe_metrology::data::Map;
-use abbe_spec::Spec;
-use abbe_spec::option::WEIGHT_ONE_METRE;
+use abbe_spec::{Spec, option::WEIGHT_ONE_METRE};
 use abbe_study::number::{NO_BREAK, counted, error_decimals, error_unit, fixed, length, short, visible};
 
 use super::shared::{data_rows, extrapolated, first_rows};

@@ -3,8 +3,7 @@
 use abbe_metrology::Judged;
 use abbe_metrology::data::Map;
 use abbe_metrology::measure::{InstrumentErrors, MeanAndMax, Report};
-use abbe_spec::Spec;
-use abbe_spec::option::IDENTIFY_OUT;
+use abbe_spec::{Spec, option::IDENTIFY_OUT};
 use abbe_study::number::{counted, digits, error_unit, fixed, percent};
 
 use super::shared::{

@@ -2,8 +2,7 @@
 
 use abbe_metrology::data::Map;
 use abbe_metrology::monitor::{Chart, Finding, Report};
-use abbe_spec::Spec;
-use abbe_spec::option::SINCE;
+use abbe_spec::{Spec, option::SINCE};
 use abbe_study::number::{digits, fixed, percent, trimmed};
 
 use super::shared::instrument;

@@ -2,8 +2,7 @@
 
 use abbe_metrology::data::Map;
 use abbe_metrology::plan::{Input, Report};
-use abbe_spec::Spec;
-use abbe_spec::option::MODEL_ERROR_LENGTH;
+use abbe_spec::{Spec, option::MODEL_ERROR_LENGTH};
 use abbe_study::number::{digits, error_unit, quantity};
 
 use super::identification::{combination, indistinguishable};

@@ -1,7 +1,6 @@
 //! The exact chain with the errors of all sources.
 
-use std::vec;
-use std::vec::Vec;
+use std::{vec, vec::Vec};
 
 use crate::{Class, Description, Error, Manipulator, Pose, Quantity, checks};
 

@@ -1,9 +1,7 @@
 //! Deterministic sample points: the same on every run and every machine.
 
 use core::f64::consts::PI;
-use std::sync::LazyLock;
-use std::vec;
-use std::vec::Vec;
+use std::{sync::LazyLock, vec, vec::Vec};
 
 use crate::{Description, Manipulator, Variable};
 

@@ -1,8 +1,7 @@
 //! Texts and lists of a description: constants of generated code, or shared data read from a spec
 //! at run time.
 
-use core::fmt;
-use core::ops::Deref;
+use core::{fmt, ops::Deref};
 #[cfg(feature = "std")]
 use std::sync::Arc;
 

@@ -1,14 +1,12 @@
 //! The enclosing box of a workspace.
 
-use abbe_spec::option::SET;
+use abbe_spec::{Spec, expr::Symbol, option::SET};
 use std::sync::Arc;
 
 use abbe::analysis::{BudgetOptions, Configuration, Measurand, error_budget};
 use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress, Watch};
 use abbe_codegen::chain::{DIRECTION, Implicit, Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
 use indexmap::IndexMap;
 
 use crate::workspace::Span;

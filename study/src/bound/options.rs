@@ -1,7 +1,6 @@
 //! Options of a bound.
 
-use std::fmt;
-use std::str::FromStr;
+use std::{fmt, str::FromStr};
 
 use abbe_bound::Effort;
 

@@ -10,8 +10,7 @@ use abbe::analysis::sampling::vectors::{add, cross, dot, norm, subtract};
 use abbe::{Component, VariableKind};
 use abbe_codegen::chain::{EffectNode, effects, joint_twist, transform};
 use abbe_codegen::graph::{Graph, Node};
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Cause, Source, Spec};
+use abbe_spec::{Cause, Source, Spec, expr::Symbol};
 
 use crate::closing::value_at_home;
 use crate::number::digits;

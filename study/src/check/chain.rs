@@ -2,11 +2,9 @@
 
 use std::borrow::Cow;
 
-use abbe::analysis::sampling;
-use abbe::{Manipulator, Pose};
+use abbe::{Manipulator, Pose, analysis::sampling};
 use abbe_codegen::graph::Graph;
-use abbe_spec::expr::Elementary;
-use abbe_spec::{DhConvention, DhNumber, Factor, Spec};
+use abbe_spec::{DhConvention, DhNumber, Factor, Spec, expr::Elementary};
 use serde::Serialize;
 
 use crate::closing::value_at_home;

@@ -1,7 +1,6 @@
 //! Number of generalized errors that measurements can identify.
 
-use std::convert::Infallible;
-use std::ops::ControlFlow;
+use std::{convert::Infallible, ops::ControlFlow};
 
 use abbe::analysis::{
     Configuration, Measurement, Parts, Workspace, identifiable, identifiable_in_parts, in_order_until,

@@ -1,8 +1,7 @@
 //! Self-checks of the closed form against the exact chain: the laws of the runtime, with their
 //! figures.
 
-use std::convert::Infallible;
-use std::ops::ControlFlow;
+use std::{convert::Infallible, ops::ControlFlow};
 
 use abbe::analysis::in_order_until;
 use abbe::lanes::Batches;

@@ -2,10 +2,8 @@
 //!
 //! Numbers without a unit have lengths relative to those of the loops.
 
-use abbe::Manipulator;
-use abbe::analysis::sampling;
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe::{Manipulator, analysis::sampling};
+use abbe_spec::{Spec, expr::Symbol};
 use nalgebra::DMatrix;
 use serde::Serialize;
 

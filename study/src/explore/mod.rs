@@ -11,8 +11,7 @@ pub use report::{
     StudyFacts,
 };
 
-use std::borrow::Cow;
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use abbe::analysis::{Configuration, Subset, Workspace};
 use abbe_codegen::print::Language;

@@ -3,12 +3,11 @@
 
 use std::sync::Arc;
 
-use abbe::Class;
-use abbe::analysis::sampling::norm;
 use abbe::analysis::{
     AllocationCriterion, Allocator, ErrorParts, ErrorRow, Measurand, Row, ScalableSource, Sweepable,
     Workspace, sweep,
 };
+use abbe::{Class, analysis::sampling::norm};
 use abbe_spec::option::{NamedOption, option};
 use abbe_spec::{Source, Spec};
 use serde::Serialize;

@@ -7,8 +7,7 @@ pub use abbe_exchange::import::{ImportReport as Report, ImportedFrame};
 
 use std::path::PathBuf;
 
-use abbe_exchange::import::AngleRounding;
-use abbe_exchange::{dh, urdf};
+use abbe_exchange::{dh, import::AngleRounding, urdf};
 use abbe_spec::Document;
 use abbe_spec::option::{DH_MODIFIED, DH_STANDARD};
 

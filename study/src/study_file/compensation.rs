@@ -1,7 +1,6 @@
 //! Reads `[compensation]`: the residuals of repeatable sources and tolerances after compensation.
 
-use abbe::Description;
-use abbe::analysis::Residual;
+use abbe::{Description, analysis::Residual};
 use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
 use abbe_spec::value::find_name;
 use abbe_spec::{Diagnostic, Item, Spec};

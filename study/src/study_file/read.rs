@@ -1,10 +1,8 @@
 //! Reads a study file from top to bottom.
 
-use abbe_spec::option::STUDY;
+use abbe_spec::{Diagnostic, Document, Item, Section, Spec, expr::Symbol, option::STUDY};
 use std::path::{Path, PathBuf};
 
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Diagnostic, Document, Item, Section, Spec};
 use sha2::{Digest, Sha256};
 
 use super::choices::{CRITERIA, Criterion, JudgedMachine};

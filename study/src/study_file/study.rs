@@ -6,9 +6,7 @@
 
 use std::path::PathBuf;
 
-use abbe_spec::expr::Dimension;
-use abbe_spec::value::find_name;
-use abbe_spec::{Diagnostic, Item, Section, Spec};
+use abbe_spec::{Diagnostic, Item, Section, Spec, expr::Dimension, value::find_name};
 use serde::Serialize;
 
 use super::{CombinedFigure, Compensated, Criterion, Figure, JudgedMachine, Metric, keys, tolerance};

@@ -2,12 +2,10 @@
 //!
 //! Joint variables of a platform on legs, from its pose.
 
-use std::ops::Range;
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
 use abbe::analysis::{Axis, BaseBox, Legs, Presentation, ToolOrientation};
-use abbe_codegen::chain::LoopEquations;
-use abbe_codegen::graph::Graph;
+use abbe_codegen::{chain::LoopEquations, graph::Graph};
 use abbe_spec::expr::{Dimension, Expression, Symbol};
 use abbe_spec::{Closure, Diagnostic, Factor, Item, Section, Spec};
 

@@ -1,8 +1,7 @@
 //! Orientations of the tool in a box of points.
 
 use abbe::analysis::ToolOrientation;
-use abbe_spec::expr::Dimension;
-use abbe_spec::{Diagnostic, Item};
+use abbe_spec::{Diagnostic, Item, expr::Dimension};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use super::keys::ORIENTATIONS;

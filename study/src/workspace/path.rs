@@ -8,11 +8,9 @@
 //! Columns are named like variables, parameters and inputs, with a unit in parentheses. Without
 //! a unit they are in the spec's length unit or in rad. Symbols without a column stay at home.
 
-use std::io::Read;
-use std::path;
+use std::{io::Read, path};
 
-use abbe::Manipulator;
-use abbe::analysis::Configuration;
+use abbe::{Manipulator, analysis::Configuration};
 use abbe_spec::bounded::{UnreadableFile, not_text};
 use abbe_spec::csv_writer::meant;
 use abbe_spec::expr::{LARGEST, Symbol};

@@ -1,11 +1,10 @@
 //! Workspace of a study.
 
-use abbe::analysis::sampling::range_of;
 use abbe::analysis::{
     Axis, BaseBox, Configuration, JointSamples, Legs, Presentation, Workspace, base_box, joint_grid,
     joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
 };
-use abbe::{Error, Manipulator};
+use abbe::{Error, Manipulator, analysis::sampling::range_of};
 use abbe_spec::{Input, Spec};
 
 use super::orientation::describe;

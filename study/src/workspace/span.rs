@@ -3,8 +3,7 @@
 use abbe::Manipulator;
 use abbe::analysis::sampling::range_of;
 use abbe::analysis::{Axis, BaseBox, Presentation};
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::{Spec, expr::Symbol};
 
 use super::region::{Form, Region};
 use crate::{Result, mistake};

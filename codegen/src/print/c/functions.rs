@@ -1,7 +1,6 @@
 //! Prints routines as functions.
 
-use abbe_core::Description;
-use abbe_core::function::Signature;
+use abbe_core::{Description, function::Signature};
 use abbe_spec::Spec;
 
 use super::operators::C;

@@ -5,8 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use abbe_core::function::Signature;
-use abbe_core::{Function, LengthUnit, Orientation, Quantity, VariableKind};
+use abbe_core::{Function, LengthUnit, Orientation, Quantity, VariableKind, function::Signature};
 use abbe_spec::{Dimension, MAGNITUDE, Spec};
 
 use super::xml::Element;

@@ -1,7 +1,6 @@
 //! Operators and numbers of JavaScript.
 
-use std::borrow::Cow;
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use abbe_spec::{Function, Lookup, Table};
 

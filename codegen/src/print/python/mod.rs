@@ -9,8 +9,7 @@ mod functions;
 mod operators;
 mod procedures;
 
-use abbe_spec::literal::quoted;
-use abbe_spec::{Spec, Table};
+use abbe_spec::{Spec, Table, literal::quoted};
 
 use self::functions::{MARGIN, face, kernel};
 use self::operators::number;

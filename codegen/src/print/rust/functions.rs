@@ -1,7 +1,6 @@
 //! Prints the array functions of a module: generic over the scalar, without checks.
 
-use abbe_core::Function;
-use abbe_core::function::Count;
+use abbe_core::{Function, function::Count};
 use abbe_spec::Spec;
 
 use super::operators::Rust;

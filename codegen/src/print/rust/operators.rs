@@ -2,9 +2,7 @@
 //!
 //! Number literals of Rust.
 
-use std::borrow::Cow;
-use std::f64::consts;
-use std::sync::Arc;
+use std::{borrow::Cow, f64::consts, sync::Arc};
 
 use abbe_spec::{Function, Lookup, Table};
 

@@ -1,7 +1,6 @@
 //! Declarations of variables in Structured Text.
 
-use abbe_core::Description;
-use abbe_core::function::Array;
+use abbe_core::{Description, function::Array};
 use abbe_spec::Spec;
 
 use super::initial;

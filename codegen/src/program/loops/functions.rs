@@ -1,7 +1,6 @@
 //! Loops of the Jacobians and of the quantities accumulated over the frames.
 
-use abbe_core::Orientation;
-use abbe_core::function::Count;
+use abbe_core::{Orientation, function::Count};
 
 use super::sums::Twists;
 use super::{Body, POSE, RoutineBuilder, RowsArray};

@@ -1,9 +1,7 @@
 //! Heading line of a table.
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::Span;
-use abbe_spec::option::DH_MODIFIED;
-use abbe_spec::{DhConvention, Diagnostic, Document};
+use abbe_spec::{DhConvention, Diagnostic, Document, diagnostic::Span, option::DH_MODIFIED};
 
 use super::heading::{Heading, Quantity, Unit};
 use super::text::Text;

@@ -12,9 +12,7 @@ mod rows;
 mod text;
 
 use abbe::LengthUnit;
-use abbe_spec::diagnostic::listed;
-use abbe_spec::option::option;
-use abbe_spec::{DhConvention, Document, Notes};
+use abbe_spec::{DhConvention, Document, Notes, diagnostic::listed, option::option};
 
 use self::cell::Cells;
 use self::columns::Columns;

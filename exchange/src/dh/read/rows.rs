@@ -1,7 +1,6 @@
 //! Rows of a table as joints.
 
-use abbe_spec::diagnostic::Span;
-use abbe_spec::{DhConvention, Diagnostic, Document, Notes, as_identifier};
+use abbe_spec::{DhConvention, Diagnostic, Document, Notes, as_identifier, diagnostic::Span};
 
 use super::cell::{Amount, Cells};
 use super::heading::Quantity;

@@ -1,11 +1,7 @@
 //! Finds a table in a text: its heading, its rows, and remarks around it.
 
-use abbe_spec::option::DH;
+use abbe_spec::{DhConvention, Diagnostic, Document, diagnostic::Span, number::counted, option::DH};
 use std::path::Path;
-
-use abbe_spec::diagnostic::Span;
-use abbe_spec::number::counted;
-use abbe_spec::{DhConvention, Diagnostic, Document};
 
 use super::heading::Heading;
 

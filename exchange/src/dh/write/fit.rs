@@ -12,8 +12,7 @@
 //! prefix `(R, p)` is `(R e; 0)`, or `(R a × (p_T − p); R a)`.
 
 use abbe::{Orientation, Pose, deviation};
-use abbe_spec::DhNumber;
-use abbe_spec::expr::Motion;
+use abbe_spec::{DhNumber, expr::Motion};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::dh::table::{DhTable, motion};

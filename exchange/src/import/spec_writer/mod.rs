@@ -6,9 +6,7 @@ mod transform;
 
 use std::f64::consts::TAU;
 
-use abbe_spec::as_identifier;
-use abbe_spec::edit::TableText;
-use abbe_spec::edit::write::quoted;
+use abbe_spec::{as_identifier, edit::TableText, edit::write::quoted};
 
 use self::transform::{origin, transform};
 use super::chain::{Chain, Mass, Variable};

@@ -4,8 +4,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use abbe_spec::DhConvention;
-use abbe_spec::edit::write::quoted;
+use abbe_spec::{DhConvention, edit::write::quoted};
 
 use crate::import::chain::{Chain, DhRow, Frame, Geometry, Motion, Variable};
 use crate::placement::Placement;

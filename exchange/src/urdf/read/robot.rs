@@ -1,7 +1,6 @@
 //! Links and joints of a URDF file, with the spans that mistakes point to.
 
-use abbe_spec::Diagnostic;
-use abbe_spec::diagnostic::Span;
+use abbe_spec::{Diagnostic, diagnostic::Span};
 
 use crate::placement::Placement;
 

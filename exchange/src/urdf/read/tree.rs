@@ -2,9 +2,7 @@
 
 use std::collections::HashMap;
 
-use abbe_spec::diagnostic::Span;
-use abbe_spec::value::find_name;
-use abbe_spec::{Diagnostic, Document};
+use abbe_spec::{Diagnostic, Document, diagnostic::Span, value::find_name};
 
 use super::robot::{Joint, Link, Named, Robot};
 use crate::placement::Placement;

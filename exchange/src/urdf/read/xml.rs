@@ -2,9 +2,7 @@
 
 use std::collections::HashSet;
 
-use abbe_spec::diagnostic::Span;
-use abbe_spec::visible::alters_text;
-use abbe_spec::{Diagnostic, Document};
+use abbe_spec::{Diagnostic, Document, diagnostic::Span, visible::alters_text};
 use roxmltree::{Attribute, Node};
 
 use super::robot::{Joint, JointKind, Link, Mimic, Named, Robot};

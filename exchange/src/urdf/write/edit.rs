@@ -3,11 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-use abbe::{Orientation, Pose, deviation};
+use abbe::{Orientation, Pose, analysis::sampling::vectors::norm, deviation};
 
 use crate::export::report::{DECIMALS, rounded};
 use crate::placement::{placed, roll_pitch_yaw};
-use abbe::analysis::sampling::vectors::norm;
 
 /// Nominal and new origin of a joint, in m and rad.
 pub(super) struct NewOrigin<'a> {

@@ -7,8 +7,7 @@ mod tree;
 use abbe_spec::option::{BASE, BASE_LINK, TIP, TIP_LINK};
 use std::path::Path;
 
-use abbe::analysis::sampling;
-use abbe::{Manipulator, Pose, VariableKind};
+use abbe::{Manipulator, Pose, VariableKind, analysis::sampling};
 use abbe_spec::number::{digits, length};
 use abbe_spec::{Diagnostics, Document, mistake};
 

@@ -1,9 +1,7 @@
 //! Accuracy: what the standard errors rest on, instruments, profiles of joints and richer terms.
 
 use abbe_metrology::identify::{Gain, JointProfile, Report, shown_lines};
-use abbe_spec::expr::Symbol;
-use abbe_spec::option::TEST_FILE;
-use abbe_spec::{Fitted, Spec};
+use abbe_spec::{Fitted, Spec, expr::Symbol, option::TEST_FILE};
 use abbe_study::number::{self, counted, digits, error_unit, fixed, percent};
 
 use crate::document::{Section, Table, joined};

@@ -7,8 +7,7 @@ use abbe_metrology::identify::{
     FoundInstrument, JointError, Kind, Parameter, PlacementAtStation, Report, ResidualDrift, Sizes, Written,
     overlap_warning,
 };
-use abbe_spec::Spec;
-use abbe_spec::option::FULL;
+use abbe_spec::{Spec, option::FULL};
 use abbe_study::number::{counted, digits, error_unit, fixed};
 
 use crate::document::{Section, Table, first};

@@ -4,8 +4,7 @@
 //! axis of its joint, and a slide has a direction only. Thus it depends neither on where a table
 //! places its origins, nor on the unit.
 
-use std::vec;
-use std::vec::Vec;
+use std::{vec, vec::Vec};
 
 use super::vectors::{add, cross, distance, dot, norm, scale, subtract};
 use super::{halton, home};

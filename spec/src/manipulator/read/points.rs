@@ -1,7 +1,6 @@
 //! Points of a table: reads and checks them.
 
-use std::io::Read;
-use std::path::PathBuf;
+use std::{io::Read, path::PathBuf};
 
 use crate::bounded::{UnreadableFile, not_text};
 use crate::csv_writer::meant;

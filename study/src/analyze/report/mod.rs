@@ -15,8 +15,7 @@ mod uncertainty_budget;
 use std::sync::Arc;
 
 use abbe::analysis::{Budget, Configuration, Extreme, Measurand};
-use abbe_spec::Spec;
-use abbe_spec::option::NamedOption;
+use abbe_spec::{Spec, option::NamedOption};
 use serde::Serialize;
 
 pub use combined::{

@@ -8,8 +8,7 @@ use std::collections::BTreeMap;
 
 use abbe::analysis::{Budget, Configuration, Contribution, Figures, SourceErrors, Workspace};
 use abbe::{Class, Component};
-use abbe_spec::expr::Expression;
-use abbe_spec::{ChainNumber, DhNumber, Source, Spec, Uncertain};
+use abbe_spec::{ChainNumber, DhNumber, Source, Spec, Uncertain, expr::Expression};
 use serde::{Serialize, Serializer};
 
 use crate::number::{self, Named};
