@@ -31,8 +31,8 @@ pub(crate) struct Positioning {
     /// Standard uncertainty of the scale of the instrument, with that of the temperature: `1um/m`
     #[arg(long, value_name = "VALUE")]
     scale_uncertainty: Option<String>,
-    /// Accept the axis if its characteristics are within these limits by at least their uncertainty:
-    /// "A 12um, B 3um"; A, E, M, R and B are those of both directions if the runs have both
+    /// Accept the axis if its characteristics are within these limits by at least their
+    /// uncertainty: "A 12um, B 3um"; they are those of both directions if the runs have both
     #[arg(long, value_name = "LIMITS")]
     accept: Option<String>,
     /// Write the mean deviations at the positions to this CSV file, for a table of a spec

@@ -2816,6 +2816,9 @@ class PositioningReport(Report):
     diagonals: DiagonalResult | None
     """Results of all diagonals together; none for an axis."""
 
+    accepted: AcceptanceVerdict | None
+    """Verdict by the limits, in `unit`; none without limits."""
+
 
 class Predicted(Fields):
     """Statistics of a standard deviation over the configurations of use, in the length unit."""

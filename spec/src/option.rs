@@ -37,6 +37,7 @@ macro_rules! options {
 
 options! {
     ACCEPT = "accept";
+    AXES = "axes";
     BASE = "base";
     BASE_LINK = "base", "LINK";
     BOXES = "boxes";
@@ -80,6 +81,7 @@ options! {
     STATION_NEW = "station", "new";
     STUDY = "study";
     STUDY_FILE = "study", "FILE";
+    TEMPLATE_MACHINE_TOOL = "template", "machine-tool";
     TERMS = "terms";
     TEST = "test";
     TEST_FILE = "test", "FILE";

@@ -1,10 +1,10 @@
 //! Spec of a machine tool from the order of its axes, such as `[w C' X' b Y Z (C1) t]`: from the
-//! workpiece over the bed to the tool, axes that carry the workpiece with a prime (ISO 10791-6), the
-//! errors with the letters of ISO 230-1.
+//! workpiece over the bed to the tool, axes that carry the workpiece with a prime (ISO 10791-6),
+//! the errors with the letters of ISO 230-1.
 
 use std::fmt::Write;
 
-use abbe_spec::mistake;
+use abbe_spec::{mistake, option::AXES};
 
 use crate::Result;
 
@@ -35,7 +35,7 @@ impl Axis {
 
 /// Reads the axes: those before the bed, and those after it.
 fn read(code: &str) -> Result<[Vec<Axis>; 2]> {
-    let refused = |message: String, help: &str| Err(mistake::with_help("--axes", message, help));
+    let refused = |message: String, help: &str| Err(mistake::with_help(AXES, message, help));
     let inner = code.trim().trim_start_matches(['V', 'v']).trim_matches(['[', ']', ' ']);
     let words: Vec<&str> = inner.split_whitespace().collect();
     let form = format!("write the axes from workpiece to tool: `{USUAL}`");
@@ -54,7 +54,7 @@ fn read(code: &str) -> Result<[Vec<Axis>; 2]> {
             side = 1;
             continue;
         }
-        let bare = word.trim_end_matches(['\'', '′', '’']);
+        let bare = word.trim_end_matches(['\'', '\u{2032}', '\u{2019}']);
         let known = bare.len() == 1 && "XYZUVWABC".contains(bare);
         let axis = Axis { letter: bare.chars().next().unwrap_or('?'), is_primed: bare.len() < word.len() };
         if !known {

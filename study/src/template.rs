@@ -1,5 +1,6 @@
 //! Spec templates: starter files with comments for common kinds of machines.
 
+use abbe_spec::option::{AXES, TEMPLATE_MACHINE_TOOL};
 use abbe_spec::{check_name, edit::Edits, edit::write::quoted};
 
 use crate::options::Choices;
@@ -30,7 +31,7 @@ impl Template {
         (Self::Gantry, "gantry", "three linear axes"),
         (Self::FiveAxisMill, "five-axis-mill", "three linear axes that carry a swivel head"),
         (Self::Hexapod, "hexapod", "platform on six legs that extend"),
-        (Self::MachineTool, "machine-tool", "axes in the order of --axes, with errors by ISO 230-1"),
+        (Self::MachineTool, "machine-tool", "linear and rotary axes in any order, with errors by ISO 230-1"),
     ]);
 
     /// Returns the text of the template; `None` for one that is written for its axes.
@@ -56,8 +57,8 @@ impl Template {
         check_name("NAME", name)?;
         let Some(text) = self.text() else { return machine_tool::spec(name, axes) };
         if axes.is_some() {
-            let help = "write `--template machine-tool`, or leave it out";
-            return Err(mistake::with_help("--axes", "only a machine tool has axes in an order", help));
+            let help = format!("write `{TEMPLATE_MACHINE_TOOL}`, or leave `{AXES}` out");
+            return Err(mistake::with_help(AXES, "only a machine tool has axes in an order", help));
         }
         let named = Edits::apply(text, |root, edits| {
             edits.set(&root.get("manipulator")?, "name", quoted(name));

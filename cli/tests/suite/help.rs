@@ -65,9 +65,16 @@ fn examples_run() {
     fs::write(at.join("robot.urdf"), ROBOT).unwrap();
     fs::write(at.join("pendant.csv"), PENDANT).unwrap();
     fs::write(at.join("calibrated.toml"), CALIBRATED).unwrap();
-    fs::write(at.join("x-axis.csv"), "position (mm),1+ (um),1- (um)\n0,0,-1\n100,3,0\n").unwrap();
+    fs::write(
+        at.join("x-axis.csv"),
+        "position (mm),1+ (um),1- (um),2+ (um),2- (um)\n0,0,-1,0,-1\n100,3,0,3,0\n",
+    )
+    .unwrap();
     let diagonals = "diagonal,position (mm),1+ (um),1- (um)\nPPP,0,0,1\nPPP,500,4,3\n";
     fs::write(at.join("diagonals.csv"), diagonals).unwrap();
+    let program =
+        "MODULE P\nCONST jointtarget a:=[[0,-80,80,0,40,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nENDMODULE\n";
+    fs::write(at.join("part.mod"), program).unwrap();
     fs::write(at.join("dh.csv"), "theta,d,a,alpha\nq1,400,25,90\nq2,0,455,0\n").unwrap();
     let run = |line: &str| {
         let words = shell_words::split(line).unwrap();

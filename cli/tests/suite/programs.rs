@@ -290,7 +290,7 @@ fn joint_targets_count_as_the_map_says() {
     }
 }
 
-/// What is left as it is is said.
+/// Lines that are left as they are are named.
 #[test]
 fn programs_tell_what_they_leave() {
     let folder = tempdir().unwrap();

@@ -159,8 +159,8 @@ impl DiagonalResult {
 }
 
 impl Report {
-    /// Compares characteristics with limits such as `A 10 um, B 3 um`: of an axis in both directions
-    /// or, if the runs have one, in that; of diagonals the largest.
+    /// Compares characteristics with limits such as `A 10 um, B 3 um`: of an axis in both
+    /// directions or, if the runs have one, in that; of diagonals the largest.
     fn verdict(&self, text: &str, is_rotary: bool) -> Result<Option<AcceptanceVerdict>> {
         let figures: Vec<(&'static str, Option<Characteristic>)> = match (&self.diagonals, &self.lines[..]) {
             (Some(all), _) => vec![("E", all.systematic), ("B", all.reversal)],

@@ -45,7 +45,7 @@ pub(super) enum Rotation {
     RotationVector,
     /// Angles about these axes (0 = x), in the order of the product.
     Euler([usize; 3]),
-    /// The same angles, the last one of the product first.
+    /// Angles about these axes, the last one of the product first.
     Fixed([usize; 3]),
 }
 
@@ -147,7 +147,7 @@ pub(super) const LANGUAGES: [Language; 5] = [
 
 impl Language {
     /// Returns the language of a file with this ending and text.
-    pub(super) fn of(ending: &str, text: &str) -> Option<&'static Self> {
+    pub(super) fn find(ending: &str, text: &str) -> Option<&'static Self> {
         let ending = ending.to_ascii_lowercase();
         LANGUAGES.iter().find(|language| language.endings.contains(&&*ending) && text.contains(language.has))
     }

@@ -65,8 +65,8 @@ fn decimals(coherent: f64, unit: f64) -> usize {
     (coherent + unit.abs().log10()).round().max(0.0) as usize
 }
 
-/// Reads a transform of a spec, such as `Tx(500) Rz(90deg)`: the pose in `F_0` of the frame in which
-/// a program states its positions.
+/// Reads a transform of a spec, such as `Tx(500) Rz(90deg)`: the pose in `F_0` of the frame in
+/// which a program states its positions.
 ///
 /// # Errors
 ///
@@ -101,7 +101,7 @@ impl Program {
             Ok(text) => (text, false),
             Err(error) => (error.into_bytes().into_iter().map(char::from).collect(), true),
         };
-        let language = Language::of(&ending, &text).and_then(|known| Some((known, known.patterns()?)));
+        let language = Language::find(&ending, &text).and_then(|known| Some((known, known.patterns()?)));
         let Some((language, patterns)) = language else { return Ok(None) };
         let starts: Vec<usize> =
             std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
