@@ -11,9 +11,11 @@ use abbe::analysis::sampling;
 use abbe::{Manipulator, VariableKind, drawn_pose, repeatable_magnitudes};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_metrology::positioning::Positioning;
 use abbe_spec::Spec;
 use abbe_study::Machine;
 use abbe_study::export::{Export, Format};
+use abbe_study::template::Template;
 use abbe_tests::needs::{Missing, Tests};
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -25,6 +27,7 @@ fn files_correct_machines() -> Result<(), Missing> {
     linuxcnc()?;
     a_mill_of_21_errors_with_backlash();
     the_angles_of_a_table();
+    a_measured_axis_that_carries_the_workpiece();
     Ok(())
 }
 
@@ -271,4 +274,60 @@ fn the_angles_of_a_table() {
         "LinuxCNC, a table: largest error of its angle {without:.2} urad without files, {with:.3} urad with them"
     );
     assert!(without > 30.0 && with < 0.1, "{without} {with}");
+}
+
+/// A laser between table and spindle measures X', which carries the workpiece; its deviations become
+/// a table of the spec as they are, and the control corrects by it.
+fn a_measured_axis_that_carries_the_workpiece() {
+    // The position of the spindle over the table minus the command, approached from one side.
+    let deviation = |x: f64, side: f64| 0.030 * x / 500.0 + 0.004 * (x / 80.0).sin() + side * 0.002;
+    let folder = tempfile::tempdir().unwrap();
+    let mut runs = "position (mm),direction,deviation (um)\n".to_owned();
+    for at in (0..=500).step_by(10) {
+        for (sign, side) in [("+", 1.0), ("-", -1.0)].repeat(5) {
+            let _ = writeln!(runs, "{at},{sign},{:.4}", 1e3 * deviation(f64::from(at), side));
+        }
+    }
+    let file = folder.path().join("runs.csv");
+    fs::write(&file, runs).unwrap();
+    let job = Positioning { data: (&file).into(), reading: None, scale: None, accept: None };
+    let report = job.run(&mut ()).unwrap();
+    fs::write(folder.path().join("exx.csv"), report.table().unwrap().csv()).unwrap();
+    let axes = Template::MachineTool.spec("mill", Some("w X' b Y Z t")).unwrap();
+    let (frames, _) = axes.split_once("[[source]]").unwrap();
+    let of_side = |side: &str| {
+        format!(
+            "{{ file = \"exx.csv\", x = {{ column = \"position (mm)\", unit = \"mm\" }}, \
+             y = {{ column = \"{side} (um)\", unit = \"um\" }}, interpolation = \"linear\" }}"
+        )
+    };
+    let text = format!(
+        "{frames}[inputs]\nx_from = {{ value = 0, range = [-1, 1] }}\n\n[tables]\nup = {}\ndown = {}\n\n\
+         [[source]]\nname = \"EXX\"\nclass = \"repeatable\"\nframe = \"X'\"\n\
+         e_x = \"(up(x) + down(x))/2 + x_from * (up(x) - down(x))/2\"\n",
+        of_side("forward"),
+        of_side("reverse")
+    );
+    let spec = Spec::parse_in(folder.path(), "mill.toml", &text).unwrap();
+    let machine = Machine::of_spec(spec, "mill");
+    let targets: Vec<Vec<f64>> =
+        [30.0, 111.0, 203.0, 250.0, 388.0, 470.0].iter().map(|x| vec![*x, 250.0, 250.0]).collect();
+    let commands = approached(&targets);
+    let mut largest = [0.0_f64; 2];
+    for (run, with_files) in [false, true].into_iter().enumerate() {
+        let motors = motors(&machine, &['X', 'Y', 'Z'], &commands, with_files);
+        // The motors are at 0 at home, whatever the files correct there.
+        let at_home = if with_files { -deviation(250.0, 0.0) } else { 0.0 };
+        for (i, target) in targets.iter().enumerate() {
+            for (visit, side) in [(1, 1.0), (3, -1.0)] {
+                let sent = motors[4 * i + visit][0] + at_home;
+                largest[run] = largest[run].max(1e3 * (sent + deviation(sent, side) - target[0]).abs());
+            }
+        }
+    }
+    let [without, with] = largest;
+    println!(
+        "LinuxCNC, a measured axis that carries the workpiece: {without:.2} um without files, {with:.2} um with them"
+    );
+    assert!(without > 25.0 && with < 0.3, "{without} {with}");
 }
