@@ -294,7 +294,10 @@ fn faults_beside_the_chain_are_noted() {
     let (spec, notes) = with_notes(&lamp, None, false).unwrap();
     assert!(spec == expected && notes[0].contains("the macro `lamp` was not expanded"), "{notes:?}");
     let (spec, notes) = with_notes(&robot("<mimic joint=\"elsewhere\"/>", ""), None, false).unwrap();
-    assert!(spec == expected && notes[0].contains("which is no joint"), "{notes:?}");
+    assert!(spec == expected && notes[0].contains("which is no joint: it was given"), "{notes:?}");
+    // A similar name is named, and not taken.
+    let (spec, notes) = with_notes(&robot("<mimic joint=\"to_sida\"/>", ""), None, false).unwrap();
+    assert!(spec == expected && notes[0].contains("(is `to_side` meant?)"), "{notes:?}");
     let root = robot("", "").replace("<link name=\"base\"/>", "");
     for base in [None, Some("base")] {
         let (spec, notes) = with_notes(&root, base, false).unwrap();

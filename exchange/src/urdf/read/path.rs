@@ -239,18 +239,17 @@ impl<'r> Builder<'r> {
                 }
                 return moves.then_some((leader, [multiplier, offset]));
             };
-            let names: Vec<&str> = self.robot.joints.iter().map(|joint| joint.name.as_str()).collect();
-            let followed = &mimic.joint;
-            if !names.contains(&&followed.name[..])
-                && nearest(&followed.name, names.iter().copied()).is_none()
-            {
-                let [name, other] = [&leader.name, &followed.name].map(|name| name.escape_debug());
+            let followed = &mimic.joint.name;
+            let names = || self.robot.joints.iter().map(|joint| joint.name.as_str());
+            let Some(next) = names().position(|name| name == followed) else {
+                let [name, other] = [&leader.name, followed].map(|name| name.escape_debug());
+                let meant = nearest(followed, names());
+                let meant = meant.map_or(String::new(), |meant| format!(" (is `{meant}` meant?)"));
                 notes.warn(&format!(
-                    "`{name}` mimics `{other}`, which is no joint: it was given a variable of its own"
+                    "`{name}` mimics `{other}`, which is no joint{meant}: it was given a variable of its own"
                 ));
                 return Some((leader, [multiplier, offset]));
-            }
-            let next = find_name(document, followed.span.clone(), &followed.name, &names, "joint")?;
+            };
             offset += multiplier * mimic.offset;
             multiplier *= mimic.multiplier;
             leader = &self.robot.joints[next];
