@@ -6,9 +6,28 @@ import html as markup
 import json
 from collections.abc import ItemsView, Iterator, KeysView, Mapping
 from os import PathLike
+from types import MethodType
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, get_args, get_origin, get_type_hints
 
 T = TypeVar("T")
+
+if TYPE_CHECKING:
+
+    def _always(function: T) -> T: ...
+
+else:
+
+    class _always:
+        """Method that a field of its name does not hide: `dict()` and functions that take a group need it."""
+
+        def __init__(self, function):
+            self._function = function
+
+        def __get__(self, group, kind=None):
+            return self if group is None else MethodType(self._function, group)
+
+        def __set__(self, group, value):
+            raise AttributeError("this is a method")
 
 
 class Fields:
@@ -35,12 +54,15 @@ class Fields:
     def __len__(self) -> int:
         return len(vars(self))
 
+    @_always
     def keys(self) -> KeysView[str]:
         return vars(self).keys()
 
+    @_always
     def items(self) -> ItemsView[str, Any]:
         return vars(self).items()
 
+    @_always
     def get(self, name: str, default: Any = None) -> Any:
         return vars(self).get(name, default)
 

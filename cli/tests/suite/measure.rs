@@ -299,3 +299,46 @@ fn counts_have_a_size() {
     }
     assert!(largest("0.08789 deg") > 1e-3);
 }
+
+/// Instruments that read from the row before read nothing in the first row of a plan, and of each
+/// setup; no row is lost, and the rows are read as they were written.
+#[test]
+fn displacements_begin_anew_in_each_setup() {
+    let folder = tempdir().unwrap();
+    let joints: String = (1..=6)
+        .map(|i| {
+            let (name, unit) = if i < 4 { (format!("d{i}"), "mm") } else { (format!("q{i}"), "deg") };
+            format!("{name} = {{ column = \"{name}\", unit = \"{unit}\" }}\n")
+        })
+        .collect();
+    let laser = |name: &str, setup: u32| {
+        format!(
+            "[[instrument]]\nname = \"{name}\"\nkind = \"displacement\"\nsetup = {setup}\ncolumn = \"travelled\"\n\
+             unit = \"um\"\nuncertainty = \"1 um\"\n\n"
+        )
+    };
+    let map = format!("[data]\nsetup = \"setup\"\n\n[joints]\n{joints}\n{}{}", laser("x", 1), laser("z", 2));
+    let map = write(folder.path(), "laser.toml", &map);
+    let mut plan = "d1,d2,d3,q4,q5,q6,setup\n".to_owned();
+    for i in 0..4 {
+        plan += &format!("{},300,200,0,0,0,1\n", 100 + 50 * i);
+    }
+    for i in 0..3 {
+        plan += &format!("250,300,{},0,0,0,2\n", 300 + 40 * i);
+    }
+    let plan = write(folder.path(), "plan.csv", &plan);
+    let rows = folder.path().join("rows.csv");
+    let simulate =
+        ["simulate", "pps", path(&plan), "--map", path(&map), "--noise", "0", "--out", path(&rows)];
+    assert!(prints(&simulate).contains("7 rows"));
+    let text = fs::read_to_string(&rows).unwrap();
+    let heading: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let place = heading.iter().position(|name| *name == "travelled").unwrap();
+    let read: Vec<Option<f64>> =
+        text.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().ok()).collect();
+    let near = |i: usize, steps: f64| read[i].is_some_and(|read| (read / 1e3 - steps).abs() < 1.0);
+    assert!(read.len() == 7 && read[0].is_none() && read[4].is_none(), "{text}");
+    assert!((1..4).all(|i| near(i, 50.0)) && (5..7).all(|i| near(i, 40.0)), "{text}");
+    let report = json(&["measure", "pps", path(&rows), "--map", path(&map), "--json"]);
+    assert_eq!(report["rows"], 5, "{report}");
+}

@@ -344,13 +344,18 @@ impl Map {
         Observation::new(line, q, u, self.unmeasured(None))
     }
 
-    /// Links each row to the previous one, if an instrument refers to it.
+    /// Links each row to the previous one of its setup, if an instrument refers to it: another setup
+    /// begins anew.
     pub(crate) fn in_sequence(&self, mut rows: Vec<Observation>) -> Vec<Observation> {
         let Some(all) = self.instruments().filter(|all| all.depend_on_previous_row()) else { return rows };
         let mut before: Option<Observation> = None;
         for row in &mut rows {
             row.approach_mut().from = None;
-            let from = before.replace(row.clone());
+            let setup = |row: &Observation| match &row.measured {
+                Measurement::Readings(readings) => all.setup_of(readings),
+                _ => None,
+            };
+            let from = before.replace(row.clone()).filter(|from| setup(from) == setup(row));
             if let (None, Measurement::Readings(readings)) = (&from, &mut row.measured) {
                 *readings = all.at_first(std::mem::take(readings));
             }

@@ -141,7 +141,8 @@ impl Data {
             };
             let here = from_before.then(|| row(&record, &commanded, None, map, joints).ok()).flatten();
             let row = row(&record, &commanded, measured, map, joints).and_then(|row| {
-                if moved_from_nowhere(&row, before.as_ref(), map) {
+                // A plan begins where nothing is read yet.
+                if measured.is_some() && moved_from_nowhere(&row, before.as_ref(), map) {
                     return Err("this relative reading has no row before it".to_owned());
                 }
                 let time = time.map(|place| record.time(place)).transpose()?;

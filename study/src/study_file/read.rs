@@ -3,6 +3,7 @@
 use abbe_spec::{Diagnostic, Document, Item, Section, Spec, expr::Symbol, option::STUDY};
 use std::path::{Path, PathBuf};
 
+use abbe_manipulators::{SHIPPED, STUDIES};
 use sha2::{Digest, Sha256};
 
 use super::choices::{CRITERIA, Criterion, JudgedMachine};
@@ -27,9 +28,12 @@ impl Study {
         }
     }
 
-    /// Reads the study in a file, or the shipped one with that name.
+    /// Reads the study in a file, or the shipped one with that name, which may be that of its
+    /// manipulator.
     pub(crate) fn document(argument: &Path) -> Result<Document> {
-        named::document(&STUDY, argument, abbe_manipulators::STUDIES, "studies", "shipped study")
+        let of_machines = SHIPPED.iter().filter_map(|shipped| Some((shipped.name, shipped.study?)));
+        let all: Vec<(&str, &str)> = of_machines.chain(STUDIES.iter().copied()).collect();
+        named::document(&STUDY, argument, &all, "studies", "shipped study")
     }
 
     /// Applies changes to a machine, adds its uncertainties, and keeps the inputs that are set
