@@ -338,3 +338,18 @@ def test_errors_name_values():
 
 def test_json_is_that_of_the_fields():
     assert json.loads(ANALYSIS.to_json())["combined"]["radius"] == ANALYSIS.combined.radius
+
+
+def test_joints_named_like_methods() -> None:
+    names = ["keys", "items", "values", "get", "update"]
+    frames = "".join(
+        f'[[frame]]\nname = "f{i}"\nvariable = {{ name = "{name}", kind = "revolute", limits = [-1, 1] }}\n'
+        f'transform = "Rz({name}) Tx(1)"\n[[source]]\nname = "s{i}"\nclass = "repeatable"\njoint = "{name}"\nerror = "1 mrad"\n'
+        for i, name in enumerate(names)
+    )
+    machine = abbe.load(text=f'[manipulator]\nname = "arm"\nlength = "m"\n{frames}')
+    report = machine.analyze()
+    worst = report.combined.worst
+    assert list(worst) == names and len(dict(worst)) == len(names)
+    assert machine.pose(worst).shape == (4, 4)
+    assert all(dict(worst)[name] == worst[name] for name in names)
