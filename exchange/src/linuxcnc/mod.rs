@@ -122,7 +122,11 @@ pub fn write(machine: &mut RealMachine, nodes: usize, has_matrix: bool) -> Resul
         "{remaining} and angular errors with varying lever arms remain. The error along each axis is \
          that of the tool point with the other axes at home."
     ));
-    left_out.extend(origin_sentence(&joints, &at_home));
+    // The matrix is about coordinates 0, and moves the joints at home.
+    let moved =
+        |joint: &CompensatedJoint| matrix.map_or(0.0, |matrix| joint.moved_at_home(&matrix, &axes, machine));
+    let shifts: Vec<f64> = joints.iter().zip(&at_home).map(|(joint, error)| error + moved(joint)).collect();
+    left_out.extend(origin_sentence(&joints, &shifts));
     left_out.push(directions_sentence(machine, &directions));
     left_out.extend(without_limits(machine, &axes));
     let names: Vec<String> = files.iter().map(|file| format!("`COMP_FILE = {}`", file.name)).collect();

@@ -271,6 +271,18 @@ e_z = "-10e-6 * z + 0.01 mm"
     for file in &report.files[1..] {
         assert!(rows(&file.text).iter().all(|line| (line[1] - line[0]).abs() < 2e-6), "{file:?}");
     }
+    // At home the machine is where the matrix and the errors take it.
+    let home = [100.0, 50.0, 0.0];
+    let errors = [30e-6 * home[0] - 25e-6 * home[1], 0.0, 0.01];
+    let moved = [0, 1, 2]
+        .map(|i| (0..3).map(|j| (expected[i][j] - f64::from(u8::from(i == j))) * home[j]).sum::<f64>());
+    let shifts: Vec<String> = (0..3)
+        .map(|i| (["X", "Y", "Z"][i], errors[i] + moved[i]))
+        .filter(|(_, shift)| shift.abs() > 5e-7)
+        .map(|(letter, shift)| format!("{letter} {shift:.2} mm"))
+        .collect();
+    let said = format!("The errors there ({}) are a shift of the origin", shifts.join(", "));
+    assert!(report.left_out.iter().any(|sentence| sentence.contains(&said)), "{said}: {:?}", report.left_out);
     // The screw and its backlash stay for the files.
     let screw = &SCREW[SCREW.find("[[source]]").unwrap()..];
     let machine = Machine::of_spec(Spec::parse("mill.toml", &[&linear, screw].concat()).unwrap(), "mill");
