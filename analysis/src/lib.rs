@@ -74,6 +74,6 @@ pub use random::{MonteCarlo, Quantile, monte_carlo};
 pub use sweep::{BLOCK, Row, Unevaluated, UnreachableSummary, in_order, in_order_until, sweep};
 pub use uncertainty::{
     COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Machines, Residual,
-    Statement, WorstCase, Yield, errors_at, student_95,
+    Statement, WorstCase, Yield, errors_at, student_95, student_factor,
 };
 pub use worst_case::worst_case;

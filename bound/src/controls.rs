@@ -17,8 +17,7 @@
 //! `F(v₀, v₂)` always occur with the weights w and 1 − w, where `w = 2 cos² h / (1 + 2 cos² h)`, and
 //! count as one.
 
-use crate::affine::Affine;
-use crate::vertex::Number;
+use crate::{affine::Affine, vertex::Number};
 
 /// Sine and cosine of an angle, or the value of a linear name and an unused number.
 pub(crate) type Vertex = [Affine<0>; 2];

@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use abbe_study::template::Template;
-use clap::builder::ArgPredicate;
-use clap::{Args, ValueHint};
+use clap::{Args, ValueHint, builder::ArgPredicate};
 
 use crate::Result;
 use crate::arguments::{Writing, named};

@@ -3,8 +3,7 @@
 use abbe_metrology::schema::FileKind;
 use clap::Args;
 
-use crate::arguments::named;
-use crate::{Failure, Outcome, Result};
+use crate::{Failure, Outcome, Result, arguments::named};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(

@@ -3,8 +3,7 @@
 use abbe::Function;
 use pyo3::{prelude::*, types::PyDict};
 
-use crate::functions::ThirdArgument;
-use crate::machine::Machine;
+use crate::{functions::ThirdArgument, machine::Machine};
 
 /// Defines methods by their arguments besides the joints: none, an array and its form, or inputs.
 /// Each has its documentation and the function that it evaluates.

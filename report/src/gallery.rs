@@ -2,8 +2,7 @@
 
 use abbe_study::explore::Report;
 
-use crate::html::index;
-use crate::{File, explore};
+use crate::{File, explore, html::index};
 
 /// Name of the page that lists the others.
 pub const INDEX: &str = "index.html";

@@ -1,7 +1,6 @@
 //! Progress, remarks and cancellation of a running job.
 
-use crate::diagnostic::Diagnostics;
-use crate::mistake;
+use crate::{diagnostic::Diagnostics, mistake};
 
 /// Receives the remarks and the progress of a running job, and can stop it.
 ///

@@ -10,8 +10,7 @@ use abbe_spec::option::{DISABLE, ENABLE, NamedOption, Q, SCALE, SCALE_GEAR, SET,
 use abbe_spec::value::{find_name, parse_value};
 use abbe_spec::{Diagnostic, Document, Spec};
 
-use crate::number::exact_quantity;
-use crate::{Result, number};
+use crate::{Result, number, number::exact_quantity};
 
 /// Changes to a spec, applied in order.
 #[derive(Clone, Debug, Default)]

@@ -8,8 +8,7 @@ use abbe_spec::value::find_name;
 use abbe_spec::{Document, Spec, check_name};
 
 pub use crate::archive::archive;
-use crate::options::Choices;
-use crate::{Machine, Notes, Result, mistake};
+use crate::{Machine, Notes, Result, mistake, options::Choices};
 
 /// Job of `abbe generate`: writes the code of a manipulator.
 #[derive(Clone)]

@@ -76,60 +76,36 @@ fn read(code: &str) -> Result<[Vec<Axis>; 2]> {
     }
 }
 
-/// Writes the spec of a machine tool with these axes, by default three.
+/// Returns the template with these axes, by default three.
 ///
 /// # Errors
 ///
 /// The order of the axes cannot be read.
-pub(crate) fn spec(name: &str, code: Option<&str>) -> Result<String> {
+pub(crate) fn text(code: Option<&str>) -> Result<String> {
     let [carrying, carried] = read(code.unwrap_or(USUAL))?;
     let names = |axes: &[Axis]| axes.iter().map(|axis| format!("{} ", axis.name())).collect::<String>();
     let code = format!("[w {}b {}t]", names(&carrying), names(&carried));
-    let mut text = format!(
-        "# A machine tool, {code}: from the workpiece w over the bed b to the tool t. Axes with a prime carry the workpiece.\n\
-         #\n\
-         # F_0 is the workpiece, and errors are those of the tool as it sees them, actual minus nominal: what is measured between\n\
-         # table and spindle, for every axis. The numbers are invented: replace them by those of your machine.\n\
-         # A number without a unit is in the length unit below, or in rad. A number with a unit stands in quotes: \"90 deg\".\n\n\
-         [manipulator]\nname = \"{name}\"\ntitle = \"Machine tool {code}\"\n\
-         reference = \"Template: invented numbers\"\nlength = \"mm\"\n\n\
-         [parameters]\ntool_length = {{ value = \"120 mm\", description = \"From the spindle nose to the tool tip\" }}\n\n\
-         # One frame for each axis. Distances between the axes stand before their motions: \"Tz(80 mm) Rz(c)\".\n"
-    );
     let all: Vec<Axis> = carrying.iter().chain(&carried).copied().collect();
+    let (rotary, linear): (Vec<Axis>, Vec<Axis>) = all.iter().partition(|axis| axis.direction().1);
     // Rotary axes do not meet, so that the place of each is its own.
-    let is_second = |axis: &Axis| {
-        all.iter().filter(|other| other.direction().1).position(|other| other == axis) == Some(1)
-    };
-    let offset = |axis: &Axis| if is_second(axis) { "Tx(20 mm) Ty(20 mm) Tz(-80 mm) " } else { "" };
-    carrying.iter().for_each(|axis| frame(&mut text, *axis, offset(axis)));
-    let middle = all.iter().filter(|axis| !axis.direction().1);
-    let middle: String =
-        middle.map(|axis| format!("T{}({}) ", XYZ[axis.direction().0], -TRAVEL / 2.0)).collect();
-    let _ = write!(
-        text,
-        "[[frame]]\nname = \"bed\"                                    # fixed: from the table to the spindle nose, all axes at 0\n\
-         transform = \"{middle}Tz(400)\"\n\n"
-    );
-    carried.iter().for_each(|axis| frame(&mut text, *axis, offset(axis)));
-    text += "[tool]\ntransform = \"Tz(-tool_length)\"\n\n\
-        # Errors by the letters of ISO 230-1: EYX is the error of the axis X along Y, EAX that about X. `e_p` turns about x, `e_s`\n\
-        # about y, `e_r` about z. They act at the origin of the frame; if they were measured along another line, add its place\n\
-        # to each: at = \"Ty(200) Tz(-150)\".\n";
-    all.iter().for_each(|axis| motion_errors(&mut text, *axis));
-    for axis in &all {
-        let (_, is_rotary) = axis.direction();
-        let variable = axis.letter.to_ascii_lowercase();
-        let error = if is_rotary { "1 arcsec" } else { "0.5 um" };
-        let _ = write!(
-            text,
-            "[[source]]\nname = \"scale of {}\"\nclass = \"random\"\ndistribution = \"uniform\"\njoint = \"{variable}\"\nerror = \"{error}\"\n\n",
-            axis.letter
-        );
-    }
-    text += "# Squareness and places of axes: one value in each machine, within ± these.\n";
-    squarenesses(&mut text, &all);
-    all.iter().filter(|axis| axis.direction().1).for_each(|axis| location_errors(&mut text, *axis));
+    let offset =
+        |axis: &Axis| if rotary.get(1) == Some(axis) { "Tx(20 mm) Ty(20 mm) Tz(-80 mm) " } else { "" };
+    let frames = |axes: &[Axis]| axes.iter().map(|axis| frame(*axis, offset(axis))).collect::<String>();
+    let to_middle = |axis: &Axis| format!("T{}({})", XYZ[axis.direction().0], -TRAVEL / 2.0);
+    let middle: Vec<String> = linear.iter().map(to_middle).collect();
+    let (mut errors, mut places) = (String::new(), squarenesses(&linear));
+    all.iter().for_each(|axis| motion_errors(&mut errors, *axis));
+    rotary.iter().for_each(|axis| location_errors(&mut places, *axis));
+    let parts = [
+        ("CODE", code),
+        ("CARRYING", frames(&carrying)),
+        ("CARRIED", frames(&carried)),
+        ("MIDDLE", middle.join(" ")),
+        ("ERRORS", errors),
+        ("PLACES", places),
+    ];
+    let text = include_str!("../templates/machine-tool.toml").to_owned();
+    let text = parts.iter().fold(text, |text, (name, part)| text.replace(name, part));
     Ok(text.trim_end().to_owned() + "\n")
 }
 
@@ -139,26 +115,20 @@ const XYZ: [char; 3] = ['x', 'y', 'z'];
 const ERRORS: [(char, &str); 6] =
     [('X', "e_x"), ('Y', "e_y"), ('Z', "e_z"), ('A', "e_p"), ('B', "e_s"), ('C', "e_r")];
 
-/// Writes the frame of an axis, `offset` before its motion.
-fn frame(text: &mut String, axis: Axis, offset: &str) {
+/// Returns the frame of an axis, with an `offset` before its motion.
+fn frame(axis: Axis, offset: &str) -> String {
     let ((direction, is_rotary), variable) = (axis.direction(), axis.letter.to_ascii_lowercase());
-    let (kind, motion, limits, home) = match (is_rotary, axis.letter) {
-        (false, _) => (
-            "prismatic",
-            'T',
-            format!("\"0 mm\", \"{TRAVEL} mm\""),
-            format!(", home = \"{} mm\"", TRAVEL / 2.0),
-        ),
-        (true, 'C') => ("revolute", 'R', "\"-180 deg\", \"180 deg\"".to_owned(), String::new()),
-        (true, _) => ("revolute", 'R', "\"-110 deg\", \"110 deg\"".to_owned(), String::new()),
+    let (kind, motion, limits) = match (is_rotary, axis.letter) {
+        (false, _) => ("prismatic", 'T', "\"0 mm\", \"500 mm\"], home = \"250 mm\""),
+        (true, 'C') => ("revolute", 'R', "\"-180 deg\", \"180 deg\"]"),
+        (true, _) => ("revolute", 'R', "\"-110 deg\", \"110 deg\"]"),
     };
-    let _ = write!(
-        text,
-        "[[frame]]\nname = \"{}\"\nvariable = {{ name = \"{variable}\", kind = \"{kind}\", limits = [{limits}]{home} }}\n\
+    format!(
+        "[[frame]]\nname = \"{}\"\nvariable = {{ name = \"{variable}\", kind = \"{kind}\", limits = [{limits} }}\n\
          transform = \"{offset}{motion}{}({variable})\"\n\n",
         axis.name(),
         XYZ[direction],
-    );
+    )
 }
 
 fn source(text: &mut String, name: &str, class: &str, axis: Axis, (key, error): (&str, &str), at: &str) {
@@ -169,7 +139,7 @@ fn source(text: &mut String, name: &str, class: &str, axis: Axis, (key, error): 
     );
 }
 
-/// Writes the six errors of the motion of an axis.
+/// Writes the six errors of the motion of an axis, and the random one of its scale.
 fn motion_errors(text: &mut String, axis: Axis) {
     let ((direction, is_rotary), variable) = (axis.direction(), axis.letter.to_ascii_lowercase());
     for (i, (letter, key)) in ERRORS.into_iter().enumerate() {
@@ -186,20 +156,29 @@ fn motion_errors(text: &mut String, axis: Axis) {
         let name = format!("E{letter}{}", axis.letter);
         source(text, &name, "repeatable", axis, (key, &error), "");
     }
+    let error = if is_rotary { "1 arcsec" } else { "0.5 um" };
+    let _ = write!(
+        text,
+        "[[source]]\nname = \"scale of {}\"\nclass = \"random\"\ndistribution = \"uniform\"\njoint = \"{variable}\"\n\
+         error = \"{error}\"\n\n",
+        axis.letter
+    );
 }
 
-/// Writes the squarenesses of the linear axes: each turns the path of an axis, not its carriage.
-fn squarenesses(text: &mut String, all: &[Axis]) {
-    let find = |letter: char| all.iter().find(|axis| axis.letter == letter);
+/// Returns the squarenesses of the linear axes: each turns the path of an axis, not its carriage.
+fn squarenesses(linear: &[Axis]) -> String {
+    let mut text = String::new();
+    let find = |letter: char| linear.iter().find(|axis| axis.letter == letter);
     for (name, one, other, key, error) in [
         ("EC0Y", 'Y', 'X', "e_x", "-20e-6 * y"),
         ("EB0Z", 'Z', 'X', "e_x", "20e-6 * z"),
         ("EA0Z", 'Z', 'Y', "e_y", "-20e-6 * z"),
     ] {
         if let (Some(axis), Some(_)) = (find(one), find(other)) {
-            source(text, name, "tolerance", *axis, (key, error), "");
+            source(&mut text, name, "tolerance", *axis, (key, error), "");
         }
     }
+    text
 }
 
 /// Writes the place and direction of a rotary axis, in axes that do not turn with it: those of the

@@ -3,8 +3,7 @@
 use abbe_spec::option::{AXES, TEMPLATE_MACHINE_TOOL};
 use abbe_spec::{check_name, edit::Edits, edit::write::quoted};
 
-use crate::options::Choices;
-use crate::{Result, machine_tool, mistake};
+use crate::{Result, machine_tool, mistake, options::Choices};
 
 /// Kind of machine with a template.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,12 +54,12 @@ impl Template {
     /// machine tool.
     pub fn spec(self, name: &str, axes: Option<&str>) -> Result<String> {
         check_name("NAME", name)?;
-        let Some(text) = self.text() else { return machine_tool::spec(name, axes) };
-        if axes.is_some() {
+        let written = self.text().map_or_else(|| machine_tool::text(axes), |text| Ok(text.to_owned()))?;
+        if axes.is_some() && self != Self::MachineTool {
             let help = format!("write `{TEMPLATE_MACHINE_TOOL}`, or leave `{AXES}` out");
             return Err(mistake::with_help(AXES, "only a machine tool has axes in an order", help));
         }
-        let named = Edits::apply(text, |root, edits| {
+        let named = Edits::apply(&written, |root, edits| {
             edits.set(&root.get("manipulator")?, "name", quoted(name));
             Some(())
         });

@@ -1,9 +1,7 @@
 //! Configurations at which a tolerance is least likely to be met, and the one with the largest
 //! error at 95 %, by a fast approximation.
 
-use super::combined::Extreme;
-use super::peak::Peak;
-use super::sums::Sums;
+use super::{combined::Extreme, peak::Peak, sums::Sums};
 use crate::normal::ONE_SIDED_95;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};

@@ -13,4 +13,4 @@ pub use error_distribution::{
 };
 pub use errors_at::{ErrorsAt, errors_at};
 pub use machines::{Machines, Yield};
-pub use statement::{Contribution, Statement, student_95};
+pub use statement::{Contribution, Statement, student_95, student_factor};

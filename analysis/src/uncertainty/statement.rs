@@ -8,11 +8,18 @@ use abbe_core::{Component, Distribution};
 /// Normal coverage factor `Φ⁻¹((1 + 0.95)/2)`.
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 
+/// Returns the coverage factor of Student's t-distribution for a two-sided probability; fewer than
+/// one degree of freedom count as one.
+pub fn student_factor(probability: f64, degrees_of_freedom: f64) -> f64 {
+    let line = [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+    StudentVector::new(line, degrees_of_freedom.max(1.0)).quantile(probability)
+}
+
 /// Returns the half-width of the 95 % interval of Student's t-distribution.
 pub fn student_95(degrees_of_freedom: f64) -> f64 {
     match degrees_of_freedom {
         f64::INFINITY => NORMAL_95,
-        few => StudentVector::new([[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]], few).quantile(COVERAGE),
+        few => student_factor(COVERAGE, few),
     }
 }
 

@@ -1,8 +1,7 @@
 //! Change-point estimation: time, kind and size of a change in a series.
 
+use abbe_analysis::student_95;
 use nalgebra::{Matrix3, Vector3};
-
-use crate::identify::student_factor;
 
 /// Kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +84,7 @@ impl Change {
         }
         let freedom = n - 3 - usize::from(until.is_some());
         let variance = best.squares / freedom as f64;
-        let bound = best.squares + variance * student_factor(0.95, freedom as f64).powi(2);
+        let bound = best.squares + variance * student_95(freedom as f64).powi(2);
         let within = |fitted: &&Fitted| fitted.squares <= bound;
         let first = all.iter().find(within).map_or(best.at, |fitted| fitted.at);
         let last = all.iter().rev().find(within).map_or(best.at, |fitted| fitted.at);

@@ -1,7 +1,6 @@
 //! Summary statistics of errors, and comparison of two models.
 
-use super::configurations::Numbering;
-use super::statistics::student_beyond;
+use super::{configurations::Numbering, statistics::student_beyond};
 
 /// Mean, root mean square, maximum and 95th percentile of errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

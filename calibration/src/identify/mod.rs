@@ -138,6 +138,6 @@ pub use registration::{Registration, register, register_pairs};
 pub use robust::{Loss, robust_scale};
 pub use select::{CandidateTerms, ModelTerm, Selection, select};
 pub use simulate::{Chance, Simulated, joints_at_values, simulate};
-pub use statistics::{FTest, deviation_beyond, f_beyond, f_test, student_beyond, student_factor};
+pub use statistics::{FTest, deviation_beyond, f_beyond, f_test, student_beyond};
 pub use tool_points::ToolPoints;
 pub use variance::{VarianceComponent, variance_components};

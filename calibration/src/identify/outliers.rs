@@ -7,12 +7,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::clustered::Known;
-use super::robust::robust_scale_after;
 use super::{
     Configurations, Failure, Folds, Loss, Observation, Options, REJECTED, Residuals, Result, Solver,
     by_blocks, f_beyond,
 };
+use super::{clustered::Known, robust::robust_scale_after};
 
 /// Probability that any good row is rejected.
 const CHANCE: f64 = 0.01;

@@ -17,8 +17,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::statistics::Scores;
-use super::{FTest, Fit, Folds, Model, Observation, REJECTED, Result};
+use super::{FTest, Fit, Folds, Model, Observation, REJECTED, Result, statistics::Scores};
 
 /// A term: an unknown of the model times a factor that changes from row to row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

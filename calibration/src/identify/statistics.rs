@@ -29,17 +29,6 @@ pub fn student_beyond(t: f64, freedom: f64) -> f64 {
     incomplete_beta(freedom / 2.0, 0.5, freedom / (freedom + t * t))
 }
 
-/// Returns the coverage factor of Student's t with `freedom` degrees of freedom for a two-sided
-/// probability.
-pub fn student_factor(probability: f64, freedom: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1e6);
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if student_beyond(middle, freedom) > 1.0 - probability { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
-
 /// Returns the two-sided p-value of a sample standard deviation with `freedom` degrees of freedom,
 /// if the true one is 1.
 ///

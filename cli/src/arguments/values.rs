@@ -6,8 +6,7 @@ use abbe_spec::{Spec, expr::Dimension};
 use abbe_study::options::{self, Choices};
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 
-use crate::Result;
-use crate::failure::Failure;
+use crate::{Result, failure::Failure};
 
 /// Returns a parser of whole numbers in a range.
 pub(crate) fn whole(range: RangeInclusive<usize>) -> RangedI64ValueParser<usize> {

@@ -17,9 +17,7 @@ use std::process::ExitCode;
 use abbe_spec::visible::visible;
 use serde::Serialize;
 
-use crate::Result;
-use crate::failure::Failure;
-use crate::signs::shown;
+use crate::{Result, failure::Failure, signs::shown};
 
 pub(crate) use outputs::Outputs;
 pub(crate) use pending::Pending;

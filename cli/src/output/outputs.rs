@@ -10,8 +10,7 @@ use same_file::Handle;
 use super::pending::{PREFIX, Pending};
 use super::target::{Target, identity, is_stdout, parent};
 use super::{Printed, cannot_write, folders, note, record};
-use crate::Result;
-use crate::failure::Failure;
+use crate::{Result, failure::Failure};
 
 /// Output files of one run.
 #[derive(Debug)]

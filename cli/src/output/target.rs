@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use same_file::Handle;
 
 use super::cannot_write;
-use crate::Result;
-use crate::failure::Failure;
+use crate::{Result, failure::Failure};
 
 /// Resolved output path.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! The first screen of each command: at most 25 lines of 100 columns, the answer first.
 
+use abbe::analysis::student_factor;
 use abbe_manipulators::SHIPPED;
 use serde_json::Value;
 
@@ -120,7 +121,7 @@ fn only_significant_errors_are_listed() {
     let machine = report["parameters"].as_array().unwrap().iter().filter(|one| one["kind"] == "machine");
     let count = machine.clone().count();
     let one = 1.0 - 0.05 / count as f64;
-    let factor = abbe::identify::student_factor(one, number(&report["certainty"], "freedom"));
+    let factor = student_factor(one, number(&report["certainty"], "freedom"));
     assert!(factor > number(&report["certainty"], "factor_95"));
     let (significant, others): (Vec<_>, Vec<_>) =
         machine.partition(|one| number(one, "value").abs() > factor * number(one, "standard_deviation"));

@@ -15,8 +15,7 @@
 use abbe_core::Component;
 use abbe_spec::{Motion, motion};
 
-use super::Rows;
-use super::walk::Step;
+use super::{Rows, walk::Step};
 use crate::graph::{Frame, Graph, Node, Six, Vector};
 
 /// Parts of a frame's six columns: its axes, and the moments and rows 4–6 of the rotations `e_s e_r

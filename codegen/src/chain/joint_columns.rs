@@ -7,8 +7,7 @@
 use abbe_core::VariableKind;
 use abbe_spec::{ChainNumber, Spec};
 
-use super::minors::solve;
-use super::{Accumulated, Displacement, Links, Local, frame_twists, six};
+use super::{Accumulated, Displacement, Links, Local, frame_twists, minors::solve, six};
 use crate::graph::{Graph, Node, Six, Vector};
 
 /// Number of joints that control the full pose. With fewer, only the tool point is considered.

@@ -8,9 +8,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use abbe_core::Orientation;
 use abbe_spec::{Function, Spec, Symbol};
 
-use super::by_source::errors_by_source;
-use super::tree::Parts;
-use super::{Displacement, Implicit, Links, Rows, sources, vectors};
+use super::{
+    Displacement, Implicit, Links, Rows, by_source::errors_by_source, sources, tree::Parts, vectors,
+};
 use crate::graph::{Graph, Node, Six, Vector};
 
 /// Magnitude of an error of the tool point.

@@ -2,9 +2,7 @@
 
 use abbe_spec::{Spec, Symbol};
 
-use super::kinematics::of_repeatable;
-use super::tree::curvature;
-use super::{Implicit, Magnitude, RealChain, sources};
+use super::{Implicit, Magnitude, RealChain, kinematics::of_repeatable, sources, tree::curvature};
 use crate::graph::Graph;
 
 /// Remainder of the tool point's position after `J_e ε` of the repeatable sources.

@@ -8,8 +8,7 @@ use abbe_spec::{
     Cause, ChainNumber, Deviation, DeviationCause, Effect, Identified, Source, Spec, Symbol, Uncertain,
 };
 
-use super::walk::walk;
-use super::{Element, FrameTwist, Loads, frame_twists, six, transform, vectors};
+use super::{Element, FrameTwist, Loads, frame_twists, six, transform, vectors, walk::walk};
 use crate::graph::{Frame, Graph, Node, Six};
 
 /// One generalized error that a source causes.

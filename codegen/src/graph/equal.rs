@@ -1,8 +1,7 @@
 //! Equalities between nodes with different operations. A program computes the cheapest member of a
 //! class.
 
-use super::arena::Classes;
-use super::{Graph, Node, Op, Signed, Vector};
+use super::{Graph, Node, Op, Signed, Vector, arena::Classes};
 
 impl Graph {
     /// States that two nodes are equal for all values of the symbols.

@@ -32,9 +32,7 @@ pub use layout::SourceFile;
 
 use abbe_spec::Spec;
 
-use crate::chain::Model;
-use crate::procedure::Precision;
-use crate::program::Routines;
+use crate::{chain::Model, procedure::Precision, program::Routines};
 
 use expression::{Binding, Expression, Statement, Syntax, Value, arithmetic, infix, literal};
 use flat::{Flat, Results, filled};

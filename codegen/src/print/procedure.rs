@@ -8,8 +8,7 @@
 use abbe_core::function::{COMMANDS, Signature};
 use abbe_spec::Spec;
 
-use super::expression::Value as Entry;
-use super::{Binding, Expression, Results, Writer, filled, infix};
+use super::{Binding, Expression, Results, Writer, expression::Value as Entry, filled, infix};
 use crate::procedure::{
     Binary, Condition, Counter, Index, Kind, Precision, Procedure, Statement, Unary, Value, Variable, Whole,
     compensated,

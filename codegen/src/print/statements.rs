@@ -5,8 +5,7 @@ use std::collections::HashSet;
 use abbe_core::{Description, function::Count};
 use abbe_spec::{Spec, Symbol};
 
-use super::body::body;
-use super::{Flat, Names, Statement, Syntax, Value};
+use super::{Flat, Names, Statement, Syntax, Value, body::body};
 use crate::program::{ArrayRows, Block, Operand, Program, Role, Routine, Routines, Row, Stage};
 
 /// The statements of a routine.

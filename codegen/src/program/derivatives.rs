@@ -3,8 +3,7 @@
 use abbe_core::{Function, function::Count};
 use abbe_spec::{Spec, Symbol};
 
-use super::routines::at_once;
-use super::{Array, Program, Role, Routine, results};
+use super::{Array, Program, Role, Routine, results, routines::at_once};
 use crate::chain::{Model, passive_by_symbol};
 use crate::graph::Node;
 

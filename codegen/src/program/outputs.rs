@@ -2,8 +2,7 @@
 
 use abbe_core::Function;
 
-use super::Program;
-use super::select::Selections;
+use super::{Program, select::Selections};
 use crate::chain::{Jacobian, Model};
 use crate::graph::{Frame, Node};
 

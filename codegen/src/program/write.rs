@@ -4,8 +4,7 @@ use std::rc::Rc;
 
 use abbe_spec::Function;
 
-use super::select::Selection;
-use super::{Action, Operand, Program, Step};
+use super::{Action, Operand, Program, Step, select::Selection};
 use crate::graph::{Graph, Node, Op, Signed};
 
 /// A value or its negative; sums and products absorb signs.

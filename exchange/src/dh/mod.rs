@@ -7,7 +7,6 @@ mod read;
 mod table;
 mod write;
 
-pub use self::read::read;
 pub(crate) use self::table::DhTable;
-pub use self::write::write;
+pub use self::{read::read, write::write};
 pub use table::Units;

@@ -10,8 +10,7 @@ use abbe::{Error, Manipulator, Orientation, Pose, deviation};
 use abbe_spec::number::digits;
 use serde::Serialize;
 
-use super::slides::Axes;
-use super::{ChainErrors, Link, PoseDifference, RealMachine, product};
+use super::{ChainErrors, Link, PoseDifference, RealMachine, product, slides::Axes};
 
 /// Mean displacement of a rotary axis of the workpiece from its nominal pose.
 #[derive(Clone, Debug, Serialize)]

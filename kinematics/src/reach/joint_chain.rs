@@ -8,8 +8,7 @@
 use core::f64::consts::TAU;
 
 use super::target_search::Problem;
-use crate::sampling;
-use crate::sampling::vectors::tangents;
+use crate::{sampling, sampling::vectors::tangents};
 use abbe_core::{Pose, VariableKind};
 
 /// Rotation that reveals the axis of a revolute joint: the three configurations are equidistant,

@@ -2,8 +2,7 @@
 
 use nalgebra::{DMatrix, Matrix6xX, SVD, Vector3};
 
-use super::Goal;
-use super::real_tool::RealTool;
+use super::{Goal, real_tool::RealTool};
 use crate::{decompose::singular_values, sampling};
 use abbe_core::compensator::{Compensated, norms};
 use abbe_core::{Error, Manipulator, VariableKind, twist};

@@ -4,8 +4,7 @@ use std::sync::OnceLock;
 
 use super::grids::{combinations, combine};
 use super::{Axis, Show, Workspace};
-use crate::configuration::in_range;
-use crate::{Configuration, Inverse, ReachError, Target};
+use crate::{Configuration, Inverse, ReachError, Target, configuration::in_range};
 use abbe_core::{Error, Manipulator, Pose, Quantity};
 
 /// Orientation of the tool at the points of a [`BaseBox`].

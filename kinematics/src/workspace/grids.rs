@@ -13,10 +13,8 @@ use std::{fmt, sync::Arc};
 
 use abbe_core::{Error, Manipulator, Quantity, lanes::Tiles};
 
-use super::configurations::Indexed;
-use super::{Show, Workspace};
-use crate::configuration::in_range;
-use crate::{Configuration, ReachError, SumLimits, Target, inverse, sampling};
+use super::{Show, Workspace, configurations::Indexed};
+use crate::{Configuration, ReachError, SumLimits, Target, configuration::in_range, inverse, sampling};
 
 /// Creates the workspace of every combination of the values of some variables, the last one
 /// fastest. The other variables stay at home, or follow those where a sum is fixed.

@@ -9,8 +9,7 @@ use abbe_spec::keys::{Rule, words};
 use super::choices::{
     BASES, COMMANDS, INTRINSIC_CHOICES, JUDGED_TARGETS, MOUNTS, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN,
 };
-use super::target_frame::TARGET_FRAMES;
-use super::turn::EULER_ORDERS;
+use super::{target_frame::TARGET_FRAMES, turn::EULER_ORDERS};
 
 const TEXT: Value = Text("text");
 const NUMBER: Value = Number("number");

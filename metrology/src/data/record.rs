@@ -5,8 +5,7 @@ use std::{borrow::Cow, sync::Arc};
 use abbe_spec::{csv_writer::meant, expr::LARGEST};
 use csv::StringRecord;
 
-use super::cells::Cells;
-use super::dialect::Dialect;
+use super::{cells::Cells, dialect::Dialect};
 use abbe_study::date::parse_date;
 
 /// A row of a file or of columns in memory.

@@ -5,9 +5,7 @@
 use abbe_study::{About, Machine, Notes, Result, mistake, number::digits};
 use serde::Serialize;
 
-use super::columns::Columns;
-use super::kinematics::Kinematics;
-use super::{alternatives, map_writer};
+use super::{alternatives, columns::Columns, kinematics::Kinematics, map_writer};
 use crate::data::Source;
 use crate::interpretations::{
     Candidate, Interpretation, LENGTHS, Observed, PoseFormat, Ranked, Search, Tolerance, ranked, words,

@@ -4,12 +4,11 @@ use abbe::identify::{Comparison, Distances, Folds, cross_validate};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 
-use super::as_joint_errors::number_terms;
-use super::instruments::estimate;
 use super::{
     Settings, Setup, Solved, Term, check_interpretation, check_plausibility, diagnose, extended,
     own_magnitudes, solve,
 };
+use super::{as_joint_errors::number_terms, instruments::estimate};
 use crate::data::{Data, Map};
 use abbe_study::{About, Notes, Result};
 

@@ -4,8 +4,7 @@
 use abbe::identify::{Failure, Fit, Model, Options, VarianceComponent, variance_components};
 use serde::Serialize;
 
-use super::priors::fit_with_places;
-use super::{Settings, Setup, diagnose};
+use super::{Settings, Setup, diagnose, priors::fit_with_places};
 use crate::data::{Data, Map};
 use abbe_study::{Result, mistake, number::digits};
 

@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::gain::Gain;
-use super::profile_table::ProfileTable;
+use super::{gain::Gain, profile_table::ProfileTable};
 use crate::sizes::Sizes;
 use abbe_study::number::digits;
 

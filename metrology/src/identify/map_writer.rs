@@ -5,8 +5,7 @@ use abbe_spec::edit::write::{lines, list, number, quantity, quoted};
 use abbe_spec::edit::{Edits, TableText};
 use abbe_spec::{Item, Section, Spec};
 
-use super::derived::with_inputs;
-use super::{FoundModel, FoundPlacement, InstrumentFit, PlacementAtStation};
+use super::{FoundModel, FoundPlacement, InstrumentFit, PlacementAtStation, derived::with_inputs};
 use crate::data::{Map, TargetFrame, UNKNOWN, quaternion};
 use abbe_study::{Result, number::digits};
 

@@ -11,9 +11,9 @@
 use std::{borrow::Cow, fmt, sync::Arc};
 
 use abbe::identify::{
-    Drift, Fit, FixtureGeometry, Identifiable, Independent, Model, Unknown, deviation_beyond, student_factor,
+    Drift, Fit, FixtureGeometry, Identifiable, Independent, Model, Unknown, deviation_beyond,
 };
-use abbe::{LengthUnit, Pose};
+use abbe::{LengthUnit, Pose, analysis::student_factor};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_study::{Residual, Residuals, RunRecord, extrapolation::ToolPointDeviation};

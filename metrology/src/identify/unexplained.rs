@@ -5,12 +5,10 @@ use abbe_spec::Spec;
 use abbe_spec::edit::TableText;
 use abbe_spec::edit::write::{number, quantity};
 
-use super::spec_writer::DIGITS;
-use super::{FoundModel, Setup, Solved};
+use super::{FoundModel, Setup, Solved, spec_writer::DIGITS};
+use crate::acceptance::ONE_SIDED_95;
 use abbe_study::calibration::random_sources;
 
-/// Normal quantile `Φ⁻¹(0.95)`.
-const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
 /// Largest number of rows at which the random sources are evaluated.
 const EVALUATED: usize = 500;
 

@@ -4,8 +4,7 @@ use abbe::analysis::sampling::norm;
 use abbe::identify::{Failure, Measurement, Model, Observation, register};
 use abbe::{Orientation, Pose, deviation};
 
-use crate::data::Data;
-use crate::identify::Setup;
+use crate::{data::Data, identify::Setup};
 use abbe_study::{Result, mistake};
 
 /// A row and its error.

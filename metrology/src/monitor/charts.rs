@@ -12,10 +12,7 @@ use abbe::control::{SelfStarting, ewma_limit};
 use abbe::identify::f_beyond;
 use serde::Serialize;
 
-use super::check_values::CheckValues;
-use super::options::Settings;
-use super::single_errors::SingleErrors;
-use super::vectors::product;
+use super::{check_values::CheckValues, options::Settings, single_errors::SingleErrors, vectors::product};
 
 /// Degrees of freedom of an expected variance.
 const KNOWN: f64 = 1e4;

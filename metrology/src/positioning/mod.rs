@@ -159,26 +159,30 @@ impl DiagonalResult {
 }
 
 impl Report {
-    /// Compares characteristics with limits such as `A 10 um, B 3 um`: of an axis in both
-    /// directions or, if the runs have one, in that; of diagonals the largest.
+    /// Returns the characteristics by their letters: of an axis in both directions or, if the runs
+    /// have one, in that; of diagonals the largest. `None` for one that is not known.
+    pub fn figures(&self) -> Vec<(&'static str, Option<Characteristic>)> {
+        let first = self.lines.first().map(|line| &line.evaluation);
+        let both = first.and_then(|evaluation| evaluation.bidirectional.as_ref());
+        match (&self.diagonals, both, first.and_then(Evaluation::one_direction)) {
+            (Some(all), ..) => vec![("E_d", all.systematic), ("B_d", all.reversal)],
+            (None, Some(both), _) => vec![
+                ("A", both.accuracy),
+                ("E", Some(both.systematic)),
+                ("M", Some(both.mean)),
+                ("R", both.repeatability),
+                ("B", Some(both.reversal)),
+            ],
+            (None, None, Some(one)) => {
+                vec![("A", one.accuracy), ("E", Some(one.systematic)), ("R", one.repeatability)]
+            }
+            (None, None, None) => Vec::new(),
+        }
+    }
+
+    /// Compares characteristics with limits such as `A 10 um, B 3 um`.
     fn verdict(&self, text: &str, is_rotary: bool) -> Result<Option<AcceptanceVerdict>> {
-        let figures: Vec<(&'static str, Option<Characteristic>)> = match (&self.diagonals, &self.lines[..]) {
-            (Some(all), _) => vec![("E", all.systematic), ("B", all.reversal)],
-            (None, [line, ..]) => match (&line.evaluation.bidirectional, line.evaluation.one_direction()) {
-                (Some(both), _) => vec![
-                    ("A", both.accuracy),
-                    ("E", Some(both.systematic)),
-                    ("M", Some(both.mean)),
-                    ("R", both.repeatability),
-                    ("B", Some(both.reversal)),
-                ],
-                (None, Some(one)) => {
-                    vec![("A", one.accuracy), ("E", Some(one.systematic)), ("R", one.repeatability)]
-                }
-                (None, None) => Vec::new(),
-            },
-            (None, []) => Vec::new(),
-        };
+        let figures = self.figures();
         let names: Vec<&str> = figures.iter().map(|(name, _)| *name).collect();
         let (dimension, factor, example) = match is_rotary {
             true => (Dimension::NONE, 3600.0_f64.to_degrees(), "E 10 arcsec, B 3 arcsec"),

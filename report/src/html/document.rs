@@ -3,8 +3,7 @@
 use abbe_study::explore::Report;
 
 use super::escaped;
-use crate::document::Card;
-use crate::explore::Panels;
+use crate::{document::Card, explore::Panels};
 
 const STYLE: &str = include_str!("style.css");
 

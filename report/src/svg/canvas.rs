@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::markup::escaped;
-use crate::scene::Colour;
+use crate::{markup::escaped, scene::Colour};
 
 /// Position in pixels, to the right and down.
 pub(super) type Pixel = [f64; 2];

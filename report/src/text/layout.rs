@@ -1,7 +1,6 @@
 //! Facts beside their names, and aligned columns.
 
-use super::table::columns;
-use super::wrapped;
+use super::{table::columns, wrapped};
 
 /// Column at which the text of a fact begins.
 const INDENT: usize = 10;

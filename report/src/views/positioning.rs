@@ -1,8 +1,6 @@
 //! Positioning test: the characteristics of ISO 230-2 or ISO 230-6.
 
-use abbe_metrology::positioning::{
-    Bidirectional, Characteristic, PositionResult, PositioningLine, Report, Unidirectional,
-};
+use abbe_metrology::positioning::{Characteristic, PositionResult, PositioningLine, Report, Unidirectional};
 use abbe_spec::option::{READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use abbe_study::number::digits;
 
@@ -37,33 +35,17 @@ pub fn positioning(report: &Report) -> Document {
 /// Returns the verdict: the characteristics that are quoted most.
 fn headline(report: &Report) -> String {
     let unit = report.unit;
-    let named = |name: &str, value: Option<Characteristic>| {
-        value.map(|value| format!("{name} {} {unit}", digits(value.value, 3)))
-    };
-    let (standard, figures) = match (&report.diagonals, &report.lines[..]) {
-        (Some(diagonals), _) => {
-            ("ISO 230-6", vec![named("E_d", diagonals.systematic), named("B_d", diagonals.reversal)])
-        }
-        (None, [PositioningLine { evaluation, .. }, ..]) => {
-            let figures = match (&evaluation.bidirectional, evaluation.one_direction()) {
-                (Some(Bidirectional { accuracy, systematic, repeatability, reversal, .. }), _) => vec![
-                    named("A", *accuracy),
-                    named("E", Some(*systematic)),
-                    named("R", *repeatability),
-                    named("B", Some(*reversal)),
-                ],
-                (None, Some(Unidirectional { accuracy, systematic, repeatability })) => vec![
-                    named("one direction: A", accuracy),
-                    named("E", Some(systematic)),
-                    named("R", repeatability),
-                ],
-                (None, None) => vec![Some("no direction has readings at every position".to_owned())],
-            };
-            ("ISO 230-2", figures)
-        }
-        (None, []) => ("ISO 230-2", Vec::new()),
-    };
-    let figures: Vec<String> = figures.into_iter().flatten().collect();
+    let figures = report.figures().into_iter().filter(|(name, _)| *name != "M");
+    let named =
+        figures.filter_map(|(name, value)| Some(format!("{name} {} {unit}", digits(value?.value, 3))));
+    let mut figures: Vec<String> = named.collect();
+    let is_of_both = report.lines.first().is_some_and(|line| line.evaluation.bidirectional.is_some());
+    let standard = if report.diagonals.is_some() { "ISO 230-6" } else { "ISO 230-2" };
+    match figures.first_mut() {
+        None => figures.push("no direction has readings at every position".to_owned()),
+        Some(first) if !is_of_both && report.diagonals.is_none() => first.insert_str(0, "one direction: "),
+        Some(_) => {}
+    }
     format!("{} ({standard})", joined(figures))
 }
 

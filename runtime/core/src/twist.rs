@@ -1,7 +1,6 @@
 //! Jacobian columns as twists, for either orientation of rows 4–6.
 
-use crate::chain::renamed;
-use crate::{Orientation, Pose};
+use crate::{Orientation, Pose, chain::renamed};
 
 /// Returns a column with rows 4–6 converted to the small rotation in `F_0` axes. `pose` is the tool
 /// pose.

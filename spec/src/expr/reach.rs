@@ -1,7 +1,6 @@
 //! Checks whether the argument of a table can leave its range.
 
-use super::expression::values;
-use super::{Extrapolation, Kind, Scope, Symbol, Table, Term};
+use super::{Extrapolation, Kind, Scope, Symbol, Table, Term, expression::values};
 use crate::diagnostic::Diagnostic;
 
 /// Number of configurations that are tried in addition to the corners of the ranges.

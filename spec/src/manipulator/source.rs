@@ -7,8 +7,7 @@
 use abbe_core::{Class, Component, Distribution};
 
 use super::{ChainNumber, Factor};
-use crate::diagnostic::Span;
-use crate::expr::Expression;
+use crate::{diagnostic::Span, expr::Expression};
 
 /// A physical error.
 #[derive(Clone, Debug)]

@@ -7,9 +7,7 @@ use abbe::analysis::{Configuration, ReachError, Unreachable, UnreachableSummary,
 use abbe_spec::Spec;
 use serde::Serialize;
 
-use crate::dead_point::DeadPoint;
-use crate::open_loops::open_loops;
-use crate::{Closing, number};
+use crate::{Closing, dead_point::DeadPoint, number, open_loops::open_loops};
 
 /// Reason why configurations are unreachable, with its count.
 #[derive(Clone, Debug, Serialize)]

@@ -9,8 +9,7 @@ use abbe_codegen::chain::{DIRECTION, Implicit, Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
 use indexmap::IndexMap;
 
-use crate::workspace::Span;
-use crate::{Machine, Result, Study, mistake, number};
+use crate::{Machine, Result, Study, mistake, number, workspace::Span};
 
 /// Largest number of names that may move. The search for the worst case moves two more.
 const MOST_NAMES: usize = MOST_MOVING - DIRECTION.len();

@@ -10,8 +10,7 @@ use abbe_spec::{Fitted, Spec};
 use indexmap::IndexMap;
 use serde::Serialize;
 
-use crate::workspace::Span;
-use crate::{Notes, Study, number};
+use crate::{Notes, Study, number, workspace::Span};
 
 use super::domain::Domain;
 

@@ -9,8 +9,7 @@ use abbe_spec::expr::{Expression, Motion, Symbol, motion};
 use abbe_spec::{Cause, ChainNumber, Deviation, DhNumber, Factor, Spec};
 use serde::Serialize;
 
-use crate::closing::value_at_home;
-use crate::number::short;
+use crate::{closing::value_at_home, number::short};
 
 /// A suspicious number in the spec.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -12,8 +12,7 @@ use abbe_codegen::chain::{EffectNode, effects, joint_twist, transform};
 use abbe_codegen::graph::{Graph, Node};
 use abbe_spec::{Cause, Source, Spec, expr::Symbol};
 
-use crate::closing::value_at_home;
-use crate::number::digits;
+use crate::{closing::value_at_home, number::digits};
 
 /// Tolerance on the cosine between parallel directions.
 const SAME: f64 = 1e-9;

@@ -8,8 +8,7 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::modes::{LoopModes, SINGULAR, search};
-use crate::closing::Closing;
-use crate::dead_point::DeadPoint;
+use crate::{closing::Closing, dead_point::DeadPoint};
 
 /// Largest equation, without a unit, of loops that close.
 const CLOSED: f64 = 1e-9;

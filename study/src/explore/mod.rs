@@ -18,8 +18,7 @@ use abbe_codegen::print::Language;
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 
-use crate::analyze::Analyze;
-use crate::{About, Machine, Notes, Residuals, Result, Study, finite};
+use crate::{About, Machine, Notes, Residuals, Result, Study, analyze::Analyze, finite};
 
 /// Functions of the generated code that a page calls, if the manipulator has them.
 const FUNCTIONS: [&str; 6] =

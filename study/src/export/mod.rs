@@ -11,8 +11,7 @@ pub use abbe_exchange::{FORMATS, Format, FormatMismatch, Needs};
 use abbe_exchange::export::RealMachine;
 use abbe_spec::option::{NODES, TO_LINUXCNC_GENHEXKINS, TO_URDF};
 
-use crate::number::digits;
-use crate::{Machine, Notes, Result, finite, mistake};
+use crate::{Machine, Notes, Result, finite, mistake, number::digits};
 
 /// Job that writes a machine with its repeatable errors in another format.
 #[derive(Clone)]

@@ -7,9 +7,7 @@ use abbe_spec::{Diagnostic, Document, Item};
 
 use super::choices::{JudgedMachine, MACHINES};
 use super::keys;
-use crate::Result;
-use crate::options::quantity;
-use crate::workspace::positive;
+use crate::{Result, options::quantity, workspace::positive};
 
 /// Permitted errors of the tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -4,8 +4,7 @@ use abbe::analysis::ToolOrientation;
 use abbe_spec::{Diagnostic, Item, expr::Dimension};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use super::keys::ORIENTATIONS;
-use super::{constant, keys};
+use super::{constant, keys, keys::ORIENTATIONS};
 use crate::number;
 
 /// Smallest angle between two axes of the tool that are not perpendicular, in rad.

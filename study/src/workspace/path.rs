@@ -19,8 +19,7 @@ use abbe_spec::{Diagnostic, Document, Input, Section, Spec};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::keys;
-use crate::lines::RecordedReader;
-use crate::number::quantity;
+use crate::{lines::RecordedReader, number::quantity};
 
 /// Largest size of a file, in bytes.
 const LARGEST_FILE: u64 = 1 << 30;

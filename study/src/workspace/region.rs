@@ -7,8 +7,7 @@ use abbe::analysis::{
 use abbe::{Error, Manipulator, analysis::sampling::range_of};
 use abbe_spec::{Input, Spec};
 
-use super::orientation::describe;
-use super::path::Path;
+use super::{orientation::describe, path::Path};
 use crate::number;
 
 /// Default number of joint samples.

@@ -4,8 +4,7 @@ use core::ops::Range;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::super::Result;
-use super::basis::Centered;
+use super::{super::Result, basis::Centered};
 use crate::identify::{Failure, Fit, Folds, Model, Observation, REJECTED};
 use abbe_analysis::in_order;
 

@@ -1,6 +1,6 @@
 //! Tests of `statistics.rs`.
 
-use super::{deviation_beyond, f_test, student_beyond, student_factor};
+use super::{deviation_beyond, f_test, student_beyond};
 
 #[test]
 fn probabilities_are_those_of_the_tables() {
@@ -20,7 +20,7 @@ fn probabilities_are_those_of_the_tables() {
     for (freedom, t) in of_student.into_iter().chain([(10, 2.228_139), (100, 1.983_972)]) {
         let freedom = f64::from(freedom);
         assert!((student_beyond(t, freedom) - 0.05).abs() < 1e-6, "{freedom}");
-        assert!((student_factor(0.95, freedom) - t).abs() < 1e-5, "{freedom}");
+        assert!((abbe_analysis::student_95(freedom) - t).abs() < 1e-5, "{freedom}");
     }
     assert_eq!(student_beyond(0.0, 7.0), 1.0);
 }

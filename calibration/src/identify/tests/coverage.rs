@@ -1,6 +1,7 @@
 //! Coverage of stated standard deviations over many machines: repeated visits, several targets, few
 //! rows, robust losses.
 
+use abbe_analysis::{student_95, student_factor};
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -156,7 +157,7 @@ fn intervals_of_few_degrees_of_freedom_hold() {
                 continue;
             };
             assert_eq!(found.freedom, freedom as f64);
-            let factor = student_factor(0.95, found.coverage_freedom);
+            let factor = student_95(found.coverage_freedom);
             for (k, deviation) in found.standard_deviations().iter().enumerate() {
                 let is_within = (found.x[k] - truth[k]).abs() <= factor * deviation.unwrap();
                 (within, count) = (within + f64::from(u8::from(is_within)), count + 1.0);
@@ -246,7 +247,7 @@ fn intervals_hold_where_rows_say_little() {
             for (k, act_as) in &found.identifiable.redundant {
                 act_as.iter().for_each(|(j, factor)| expected[*j] += factor * truth[*k]);
             }
-            let student = student_factor(0.95, found.coverage_freedom);
+            let student = student_95(found.coverage_freedom);
             let deviations = found.standard_deviations();
             if seed < 5 {
                 // Without outliers, a robust loss chooses the same scale, and says the same.

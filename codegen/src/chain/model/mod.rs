@@ -9,8 +9,7 @@ mod names;
 
 use abbe_spec::Spec;
 
-use super::inverse::Inverse;
-use super::{ClosedLoops, EffectNode, LocalTwist};
+use super::{ClosedLoops, EffectNode, LocalTwist, inverse::Inverse};
 use crate::graph::{Frame, Graph, Node, Six};
 
 /// A Jacobian, or another matrix with the same six rows: columns, with rows 4–6 by the spec's

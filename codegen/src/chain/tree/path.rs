@@ -18,8 +18,7 @@
 
 use abbe_spec::{Function as Call, Symbol};
 
-use super::system::LoopSystem;
-use super::{ClosedLoops, RealNodes};
+use super::{ClosedLoops, RealNodes, system::LoopSystem};
 use crate::graph::{Graph, Node};
 
 /// Largest number of steps.

@@ -3,9 +3,7 @@
 
 use abbe_spec::{Spec, Symbol};
 
-use super::Parts;
-use super::factored::Factored;
-use super::units::Units;
+use super::{Parts, factored::Factored, units::Units};
 use crate::graph::{Graph, Node};
 
 /// Largest factor of a determinant that counts as zero, relative to its unit.

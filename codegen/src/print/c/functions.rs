@@ -3,8 +3,7 @@
 use abbe_core::{Description, function::Signature};
 use abbe_spec::Spec;
 
-use super::operators::C;
-use super::{CPrinter, RESTRICT, Real, broken, comment};
+use super::{CPrinter, RESTRICT, Real, broken, comment, operators::C};
 use crate::print::routine::statements;
 use crate::print::{Flat, Printer, Statements, Writer, sizes};
 use crate::program::{Array, Checks, Role, Routine, Routines};

@@ -32,9 +32,7 @@ use super::{
     LINE, NOT_CLOSED, Printer, SourceFile, Writer, described, escaped, file_name, function_of, harmless,
     renamed,
 };
-use crate::chain::Model;
-use crate::procedure::look_up;
-use crate::program::Routines;
+use crate::{chain::Model, procedure::look_up, program::Routines};
 
 /// Returns the header and the source of a manipulator.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> Vec<SourceFile> {

@@ -15,8 +15,7 @@ use sha2::{Digest, Sha256};
 
 use self::variables::{CORRECTED, CORRECTION, Causality, OUTPUTS, Variable, Variables, definitions};
 use super::{Real, SourceFile, c};
-use crate::chain::Model;
-use crate::program::Routines;
+use crate::{chain::Model, program::Routines};
 pub use description::Fmi;
 
 /// Functions of the C code that the unit calls.

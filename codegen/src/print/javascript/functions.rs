@@ -6,9 +6,7 @@ use abbe_core::function::{BEGIN, Signature};
 use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
-use super::JavaScriptPrinter;
-use super::operators::JavaScript;
-use super::procedures::one_or_object;
+use super::{JavaScriptPrinter, operators::JavaScript, procedures::one_or_object};
 use crate::print::routine::statements;
 use crate::print::{Flat, Printer, Statements, Writer, commands, sizes};
 use crate::procedure::Precision;

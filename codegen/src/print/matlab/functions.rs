@@ -6,8 +6,7 @@ use abbe_core::function::{self, BEGIN, Signature};
 use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
-use super::MatlabPrinter;
-use super::operators::Matlab;
+use super::{MatlabPrinter, operators::Matlab};
 use crate::print::routine::statements;
 use crate::print::{Flat, Printer, Statements, Writer, commands, sizes};
 use crate::procedure::Precision;

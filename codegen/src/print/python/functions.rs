@@ -6,8 +6,7 @@ use abbe_core::function::{self, BEGIN, Signature};
 use abbe_core::{Description, Quantity};
 use abbe_spec::Spec;
 
-use super::PythonPrinter;
-use super::operators::Python;
+use super::{PythonPrinter, operators::Python};
 use crate::print::routine::statements;
 use crate::print::{Flat, Printer, Statements, Writer, commands, sizes};
 use crate::procedure::Precision;

@@ -17,8 +17,7 @@ use self::procedures::PythonPrinter;
 use super::header::header;
 use super::lists::{lists, records};
 use super::{Printer, SourceFile, Writer, escaped, file_name, function_of, harmless, renamed};
-use crate::procedure::look_up;
-use crate::program::Routines;
+use crate::{procedure::look_up, program::Routines};
 
 /// Modules that NumPy imports: a file of the same name would hide them.
 const MODULES: &str = "abc ast asyncio builtins codecs collections concurrent contextlib copy csv ctypes datetime decimal enum \

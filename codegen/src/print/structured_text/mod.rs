@@ -22,10 +22,8 @@ use self::declarations::{comment, harmless};
 use self::operators::{StructuredText, initial, instance, number};
 use self::procedures::scalar;
 use self::support::Support;
-use super::header::header;
-use super::{NOT_CLOSED, SourceFile, Writer};
-use crate::procedure::Precision;
-use crate::program::Routines;
+use super::{NOT_CLOSED, SourceFile, Writer, header::header};
+use crate::{procedure::Precision, program::Routines};
 
 /// Returns the file of a manipulator.
 pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {

@@ -4,9 +4,7 @@ use abbe_core::Function;
 use abbe_core::compensator::{CONTRACTION, ITERATIONS, SHORTER, Status};
 use abbe_core::function::COMPENSATED;
 
-use super::departure::departure;
-use super::variables::Cycle;
-use super::{HUGE, Machine, weigh};
+use super::{HUGE, Machine, departure::departure, variables::Cycle, weigh};
 use crate::procedure::build::{Array, Real};
 use crate::procedure::{Body, Condition, Procedure, Value, Whole};
 

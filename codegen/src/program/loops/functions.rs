@@ -2,8 +2,7 @@
 
 use abbe_core::{Orientation, function::Count};
 
-use super::sums::Twists;
-use super::{Body, POSE, RoutineBuilder, RowsArray};
+use super::{Body, POSE, RoutineBuilder, RowsArray, sums::Twists};
 use crate::chain::{Accumulated, Columns, Local, swing};
 use crate::graph::Node;
 use crate::program::{Row, Stage};

@@ -3,9 +3,7 @@
 
 use abbe_spec::diagnostic::Span;
 
-use super::cell::Cells;
-use super::heading::Quantity;
-use super::text::Text;
+use super::{cell::Cells, heading::Quantity, text::Text};
 use crate::import::AngleRounding;
 use crate::import::chain::{DhRow, Geometry};
 use crate::placement::Placement;

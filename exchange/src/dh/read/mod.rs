@@ -14,9 +14,7 @@ mod text;
 use abbe::LengthUnit;
 use abbe_spec::{DhConvention, Document, Notes, diagnostic::listed, option::option};
 
-use self::cell::Cells;
-use self::columns::Columns;
-use self::text::Text;
+use self::{cell::Cells, columns::Columns, text::Text};
 use super::table::Units;
 use crate::import::AngleRounding;
 use crate::import::chain::{Chain, Frame, Geometry};

@@ -13,8 +13,7 @@ use abbe_spec::{Diagnostics, Document, mistake};
 
 use self::edit::{Edited, NewOrigin, three};
 pub use self::tree::write_tree;
-use super::nominal::NominalChain;
-use super::read::Ends;
+use super::{nominal::NominalChain, read::Ends};
 use crate::export::origins::{Joint, origins};
 use crate::export::report::{UNCHANGED, nominal_sign};
 use crate::export::{ExportReport, ExportedFile, PoseDifference, RealMachine};

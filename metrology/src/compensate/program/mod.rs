@@ -3,8 +3,10 @@
 
 mod languages;
 
-use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::{
+    ops::Range,
+    path::{Path, PathBuf},
+};
 
 use abbe::analysis::{InverseKinematics, sampling};
 use abbe::identify::Observation;
@@ -52,13 +54,9 @@ struct Point {
     numbers: Vec<(Range<usize>, f64)>,
 }
 
-/// Source of a joint.
-enum JointChannel {
-    /// A number of joint targets, by its place, with its scale.
-    Number(usize, Scale),
-    /// A constant.
-    Fixed(f64),
-}
+/// Place of a joint among the numbers of a joint target, and its scale; no place for a constant, the
+/// zero of its scale.
+type JointChannel = (Option<usize>, Scale);
 
 /// Returns the decimals of a number in a unit that are those of the coherent unit.
 fn decimals(coherent: f64, unit: f64) -> usize {
@@ -203,13 +201,12 @@ impl Program {
                     let all = inverse.solve(&last, &pose).map_err(|error| error.to_string())?;
                     all.into_iter().next().ok_or_else(|| "out of reach".to_owned())
                 }),
-                _ => Ok(channels
-                    .iter()
-                    .map(|channel| match channel {
-                        JointChannel::Number(place, scale) => scale.value(point.numbers[*place].1),
-                        JointChannel::Fixed(value) => *value,
-                    })
-                    .collect()),
+                _ => {
+                    let value = |(place, scale): &JointChannel| {
+                        scale.value(place.map_or(0.0, |place| point.numbers[place].1))
+                    };
+                    Ok(channels.iter().map(value).collect())
+                }
             };
             match found {
                 Ok(q) => {
@@ -240,10 +237,10 @@ impl Program {
                     let help = format!("its joints are `{letter}1` to `{letter}{joints}`");
                     mistake::with_help(map.path(), message, help)
                 })?;
-                Ok(JointChannel::Number(place - 1, *scale))
+                Ok((Some(place - 1), *scale))
             }
-            Channel::Fixed(value) => Ok(JointChannel::Fixed(*value)),
-            Channel::FromRows(_) => Ok(JointChannel::Fixed(0.0)),
+            Channel::Fixed(zero) => Ok((None, Scale { one: 1.0, zero: *zero })),
+            Channel::FromRows(_) => Ok((None, Scale::COHERENT)),
         };
         map.joints.iter().map(channel).collect()
     }
@@ -337,14 +334,12 @@ impl Program {
                 }
                 false => {
                     let joints = channels.iter().zip(q.iter().zip(&*description.variables));
-                    let number = |(channel, (value, variable)): (&JointChannel, (&f64, &Variable))| {
-                        let JointChannel::Number(place, scale) = channel else { return None };
-                        let metres = description.length.in_metres();
-                        let decimals = match variable.kind {
-                            VariableKind::Revolute => decimals(DIGITS_OF_TURNS, scale.one),
-                            VariableKind::Prismatic => decimals(DIGITS_OF_METRES, scale.one * metres),
+                    let number = |((place, scale), (value, variable)): (&JointChannel, (&f64, &Variable))| {
+                        let (digits, unit) = match variable.kind {
+                            VariableKind::Revolute => (DIGITS_OF_TURNS, 1.0),
+                            VariableKind::Prismatic => (DIGITS_OF_METRES, description.length.in_metres()),
                         };
-                        Some((*place, scale.number(*value), decimals))
+                        Some(((*place)?, scale.number(*value), decimals(digits, scale.one * unit)))
                     };
                     joints.filter_map(number).collect()
                 }

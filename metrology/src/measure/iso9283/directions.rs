@@ -8,8 +8,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::super::errors::Visit;
-use super::{MeanAndMax, mean};
+use super::{super::errors::Visit, MeanAndMax, mean};
 
 /// Configurations that were approached from several directions.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -5,8 +5,7 @@
 
 use serde::Serialize;
 
-use super::pose::Characteristics;
-use super::{MeanAndMax, Visits};
+use super::{MeanAndMax, Visits, pose::Characteristics};
 
 /// Number of visits in a value of AP and RP, as in the standard.
 const CYCLES: usize = 10;

@@ -3,8 +3,7 @@
 use abbe::Distribution;
 use abbe::analysis::{COVERAGE, Measurand, student_95};
 
-use crate::document::Table;
-use crate::unit;
+use crate::{document::Table, unit};
 use abbe_study::analyze::{Quantity, Report, SourceUncertainty, UncertaintyBudget};
 use abbe_study::number;
 

@@ -1,9 +1,7 @@
 //! The number type of a batch: the functions of [`Scalar`] for lanes.
 
 use super::{Lanes, Mask, Register, arc_tangent};
-use crate::register::WIDEST;
-use crate::scalar::ROUND;
-use crate::{LookupTable, Scalar, sin_cos};
+use crate::{LookupTable, Scalar, register::WIDEST, scalar::ROUND, sin_cos};
 
 impl<R: Register> Scalar for Lanes<R> {
     #[inline(always)]

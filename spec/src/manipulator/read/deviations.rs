@@ -1,8 +1,7 @@
 //! Deviations of numbers of the nominal chain: joints, structural parameters, Denavit-Hartenberg
 //! numbers.
 
-use super::frames::motion_dimension;
-use super::{find_frame, keys};
+use super::{find_frame, frames::motion_dimension, keys};
 use crate::degrees::check_error_of_angle;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Item, Section};

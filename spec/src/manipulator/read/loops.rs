@@ -1,7 +1,6 @@
 //! `[[loop]]`: conditions that close loops of frames.
 
-use super::rigid::depends;
-use super::{CLOSURES, Declarations, Named, frame_or_base, keys};
+use super::{CLOSURES, Declarations, Named, frame_or_base, keys, rigid::depends};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Symbol};

@@ -11,8 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::request::{self, AnalysisRequest};
 use super::shard::Shard;
-use crate::analyze::sweep::PartialAnalysis;
-use crate::{Notes, Result, finite, hash, mistake};
+use crate::{Notes, Result, analyze::sweep::PartialAnalysis, finite, hash, mistake};
 
 /// Prefix of each part file, followed by the format version.
 const BEGINNING: &str = "abbe part ";

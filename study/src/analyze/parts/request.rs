@@ -7,9 +7,9 @@ use abbe_spec::bounded::{Bounded, Contents, UnreadableFile};
 use abbe_spec::{Document, Spec};
 use serde::{Deserialize, Serialize};
 
-use crate::analyze::Analyze;
-use crate::analyze::options::DRAWS;
-use crate::{Changes, Machine, Notes, Result, Study, hash, mistake};
+use crate::{
+    Changes, Machine, Notes, Result, Study, analyze::Analyze, analyze::options::DRAWS, hash, mistake,
+};
 
 /// Largest size of all files that a part carries, in bytes.
 const LARGEST: u64 = 512 << 20;

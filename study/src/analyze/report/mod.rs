@@ -33,9 +33,7 @@ pub use tolerance_verdict::{
 pub(super) use tolerance_verdict::{JudgedErrors, SEED};
 pub use uncertainty_budget::{SourceUncertainty, UncertaintyBudget};
 
-use super::compensated::CompensatedErrors;
-use super::figures::Figures;
-use super::{FirstOrder, LoopCondition, UnreachableReason};
+use super::{FirstOrder, LoopCondition, UnreachableReason, compensated::CompensatedErrors, figures::Figures};
 use crate::bound::CertifiedNorms;
 use crate::study_file::{CombinedFigure, Criterion, PublishedResidual, Study, Subject};
 use crate::{Extrapolation, RunRecord, number};
