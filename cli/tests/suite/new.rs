@@ -128,7 +128,7 @@ fn machine_tools_of_any_order() {
             let wanted = if carries { turned.turn(unit) } else { unit };
             let moved = [0, 1, 2].map(|k| real.position()[k] - turned.position()[k]);
             (0..3).for_each(|k| {
-                assert!((moved[k] - wanted[k]).abs() < 1e-9, "{order} {}: {moved:?}", source.name)
+                assert!((moved[k] - wanted[k]).abs() < 1e-9, "{order} {}: {moved:?}", source.name);
             });
         }
     }

@@ -42,7 +42,7 @@ pub(super) enum Rotation {
     /// A quaternion, the scalar first.
     Quaternion,
     /// A rotation vector.
-    RotationVector,
+    Vector,
     /// Angles about these axes (0 = x), in the order of the product.
     Euler([usize; 3]),
     /// Angles about these axes, the last one of the product first.
@@ -123,7 +123,7 @@ pub(super) const LANGUAGES: [Language; 5] = [
         elsewhere: r"(?i)\b(?:set_|force_mode|pose_|speed|wrench|interpolate)|tcp|plane|frame|feature|offset",
         relative: r"\bpose_(?:trans|add)\b",
         frame: r"(?i)plane|feature",
-        rotation: Rotation::RotationVector,
+        rotation: Rotation::Vector,
         metres: 1.0,
         radians: 1.0,
         joint: 'J',
@@ -156,7 +156,7 @@ impl Language {
     pub(super) fn turn(&self) -> Turn {
         match self.rotation {
             Rotation::Quaternion => Turn::Quaternion(Column::unnamed(), Order::Wxyz),
-            Rotation::RotationVector => Turn::RotationVector(Column::unnamed(), self.radians),
+            Rotation::Vector => Turn::RotationVector(Column::unnamed(), self.radians),
             Rotation::Euler(axes) | Rotation::Fixed(axes) => {
                 Turn::Euler(Column::unnamed(), axes, self.radians)
             }
