@@ -344,8 +344,8 @@ impl Map {
         Observation::new(line, q, u, self.unmeasured(None))
     }
 
-    /// Links each row to the previous one of its setup, if an instrument refers to it: another setup
-    /// begins anew.
+    /// Links each row to the previous one of its setup, if an instrument refers to it: another
+    /// setup begins anew.
     pub(crate) fn in_sequence(&self, mut rows: Vec<Observation>) -> Vec<Observation> {
         let Some(all) = self.instruments().filter(|all| all.depend_on_previous_row()) else { return rows };
         let mut before: Option<Observation> = None;

@@ -276,8 +276,8 @@ fn the_angles_of_a_table() {
     assert!(without > 30.0 && with < 0.1, "{without} {with}");
 }
 
-/// A laser between table and spindle measures X', which carries the workpiece; its deviations become
-/// a table of the spec as they are, and the control corrects by it.
+/// A laser between table and spindle measures X', which carries the workpiece; its deviations
+/// become a table of the spec as they are, and the control corrects by it.
 fn a_measured_axis_that_carries_the_workpiece() {
     // The position of the spindle over the table minus the command, approached from one side.
     let deviation = |x: f64, side: f64| 0.030 * x / 500.0 + 0.004 * (x / 80.0).sin() + side * 0.002;

@@ -54,8 +54,8 @@ struct Point {
     numbers: Vec<(Range<usize>, f64)>,
 }
 
-/// Place of a joint among the numbers of a joint target, and its scale; no place for a constant, the
-/// zero of its scale.
+/// Place of a joint among the numbers of a joint target, and its scale; no place for a constant,
+/// the zero of its scale.
 type JointChannel = (Option<usize>, Scale);
 
 /// Returns the decimals of a number in a unit that are those of the coherent unit.
