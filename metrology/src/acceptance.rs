@@ -104,23 +104,23 @@ impl AcceptanceVerdict {
     }
 }
 
-/// Parses figures and their limits, the `parts` of `text` that are not something else; `form` is an
-/// example, and what else may be among them.
-pub(crate) fn read_limits<'t>(
+/// Parses figures and their limits, the parts of `text` that are not something else; the last pair
+/// is an example, and what else may be among them.
+pub(crate) fn read_limits(
     option: &str,
     text: &str,
-    parts: impl Iterator<Item = (&'t str, bool)>,
+    is_else: impl Fn(&str) -> bool,
     names: &[&'static str],
     (length, dimension): (LengthUnit, Dimension),
     (example, more): (&str, &str),
 ) -> Result<Vec<(&'static str, f64)>> {
     let document = Document::new(option, text);
     let (mut limits, mut at) = (Vec::new(), 0);
-    for (part, is_else) in parts {
+    for part in text.split(',') {
         let start = at + part.len() - part.trim_start().len();
         let end = (at + part.trim_end().len()).max(start);
         at += part.len() + 1;
-        if is_else {
+        if is_else(part) {
             continue;
         }
         let name = text[start..end].split_whitespace().next().unwrap_or_default();
@@ -148,14 +148,10 @@ impl Acceptance {
         let permitted =
             format!("; `{TARGET} {FITTED}` permits a place on the tool that is fitted to the rows");
         let form = ("mean 0.15 mm, max 0.3 mm", &*permitted);
-        let mut is_target_fitted = false;
-        let parts = text.split(',').map(|part| {
-            let is_permission = part.split_whitespace().eq([TARGET, FITTED]);
-            is_target_fitted |= is_permission;
-            (part, is_permission)
-        });
-        let limits = read_limits(option, text, parts, &FIGURE_NAMES, (length, Dimension::LENGTH), form)?;
-        Ok(Self { limits, is_target_fitted })
+        let is_permission = |part: &str| part.split_whitespace().eq([TARGET, FITTED]);
+        let unit = (length, Dimension::LENGTH);
+        let limits = read_limits(option, text, is_permission, &FIGURE_NAMES, unit, form)?;
+        Ok(Self { limits, is_target_fitted: text.split(',').any(is_permission) })
     }
 
     /// Returns the limit on the largest error; without one, the limit on the next figure in the

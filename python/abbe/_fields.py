@@ -11,24 +11,6 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar, get_args, get_origin, g
 
 T = TypeVar("T")
 
-if TYPE_CHECKING:
-
-    def _always(function: T) -> T: ...
-
-else:
-
-    class _always:
-        """Method that a field of its name does not hide: `dict()` and functions that take a group need it."""
-
-        def __init__(self, function):
-            self._function = function
-
-        def __get__(self, group, kind=None):
-            return self if group is None else MethodType(self._function, group)
-
-        def __set__(self, group, value):
-            raise AttributeError("this is a method")
-
 
 class Fields:
     """Group of fields: `.name`, or `["name"]` for names that are not Python identifiers. `dict(group)` is a dict of them."""
@@ -54,15 +36,12 @@ class Fields:
     def __len__(self) -> int:
         return len(vars(self))
 
-    @_always
     def keys(self) -> KeysView[str]:
         return vars(self).keys()
 
-    @_always
     def items(self) -> ItemsView[str, Any]:
         return vars(self).items()
 
-    @_always
     def get(self, name: str, default: Any = None) -> Any:
         return vars(self).get(name, default)
 
@@ -70,6 +49,11 @@ class Fields:
         # Some groups have a field of this name.
         def values(self):
             return vars(self).values()
+
+        # Methods that `dict()` and functions of a group need, whatever its fields are called.
+        def __getattribute__(self, name):
+            method = name in ("keys", "items", "get")
+            return MethodType(getattr(type(self), name), self) if method else super().__getattribute__(name)
 
 
 Mapping.register(Fields)

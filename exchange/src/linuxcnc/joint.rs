@@ -9,7 +9,7 @@ use abbe::{Error, Manipulator, VariableKind, analysis::sampling::grid};
 use abbe_spec::number::digits;
 
 use crate::export::rotary_axes::angle_error;
-use crate::export::slides::{Axes, Slide, interpolated};
+use crate::export::slides::{Axes, interpolated};
 use crate::export::{ExportedFile, RealMachine, product};
 
 /// Joint with a file.
@@ -85,20 +85,6 @@ impl CompensatedJoint {
     pub(super) fn error_at_home(&self, machine: &RealMachine, axes: &Axes) -> Result<f64, Error> {
         let [forward, reverse] = self.errors(machine, axes, self.home)?;
         Ok((forward + reverse) / 2.0)
-    }
-
-    /// Returns the motion of the joint by the matrix at home.
-    pub(super) fn moved_at_home(
-        &self,
-        matrix: &CalibrationMatrix,
-        axes: &Axes,
-        machine: &RealMachine,
-    ) -> f64 {
-        let Some(k) = self.slide else { return 0.0 };
-        let along = |other: &Slide| {
-            matrix.slope(axes.slides[k].axis, other.axis) * machine.spec.variables[other.variable].home
-        };
-        axes.slides.iter().map(along).sum()
     }
 
     /// Returns the errors at `value`, approached from below and from above: of a slide that of the

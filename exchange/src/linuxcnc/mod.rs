@@ -123,8 +123,11 @@ pub fn write(machine: &mut RealMachine, nodes: usize, has_matrix: bool) -> Resul
          that of the tool point with the other axes at home."
     ));
     // The matrix is about coordinates 0, and moves the joints at home.
-    let moved =
-        |joint: &CompensatedJoint| matrix.map_or(0.0, |matrix| joint.moved_at_home(&matrix, &axes, machine));
+    let home = |slide: &Slide| machine.spec.variables[slide.variable].home;
+    let moved = |joint: &CompensatedJoint| -> f64 {
+        let Some((matrix, k)) = matrix.zip(joint.slide) else { return 0.0 };
+        axes.slides.iter().map(|other| matrix.slope(axes.slides[k].axis, other.axis) * home(other)).sum()
+    };
     let shifts: Vec<f64> = joints.iter().zip(&at_home).map(|(joint, error)| error + moved(joint)).collect();
     left_out.extend(origin_sentence(&joints, &shifts));
     left_out.push(directions_sentence(machine, &directions));

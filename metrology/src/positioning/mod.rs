@@ -189,9 +189,8 @@ impl Report {
             false => (Dimension::LENGTH, 1e3, "E 10 um, B 3 um"),
         };
         let option = ACCEPT.to_string();
-        let parts = text.split(',').map(|part| (part, false));
         let unit = (LengthUnit::Millimetre, dimension);
-        let limits = read_limits(&option, text, parts, &names, unit, (example, ""))?;
+        let limits = read_limits(&option, text, |_| false, &names, unit, (example, ""))?;
         let check = |(name, limit): (&'static str, f64)| {
             let found = figures.iter().find(|(figure, _)| *figure == name).and_then(|(_, value)| *value);
             let Some(Characteristic { value, uncertainty }) = found else {
