@@ -152,7 +152,22 @@ pub(crate) fn decimal(whole: &str, part: &str) -> String {
     }
 }
 
-/// Returns the known name most similar to a word, if any is similar enough.
+/// Words that others use, and the names that they mean.
+const MEANT: &str = "gaussian gauss sigma: normal; rectangular rect even: uniform; stochastic noise: random;
+    systematic deterministic: repeatable; linear slide sliding translational: prismatic; type: kind;
+    rotary rotational hinge: revolute; unit units: length; range bounds: limits; link body: frame;
+    value size: error; robot machine: manipulator; trans transx: Tx; rotx: Rx; roty: Ry; rotz: Rz;
+    ex dx: e_x; ey dy: e_y; ez dz: e_z; erx e_rx rx drx ea e_a: e_p; ery e_ry ry dry eb e_b: e_s;
+    erz e_rz rz drz ec e_c: e_r";
+
+/// Returns what a table of `words: meaning; …` has for a word.
+pub(crate) fn meanings<'t>(table: &'t str, word: &str) -> impl Iterator<Item = &'t str> {
+    let entries = table.split(';').filter_map(|entry| entry.split_once(':'));
+    let found = entries.filter(move |(words, _)| words.split_whitespace().any(|one| one == word));
+    found.map(|(_, meaning)| meaning.trim())
+}
+
+/// Returns the known name that a word means or is most similar to, if any is similar enough.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // A single edit always counts as similar, even in short words.
     let similarity = |candidate: &str| match strsim::damerau_levenshtein(word, candidate) {
@@ -166,7 +181,9 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|candidate| (similarity(candidate), *candidate))
         .filter(|(similarity, _)| *similarity > 0.75)
         .max_by(|a, b| a.0.total_cmp(&b.0));
-    in_other_case.copied().or(similar.map(|(_, candidate)| candidate))
+    let lower = word.to_lowercase();
+    let meant = meanings(MEANT, &lower).find_map(|name| known.iter().find(|candidate| **candidate == name));
+    in_other_case.or(meant).copied().or(similar.map(|(_, candidate)| candidate))
 }
 
 /// Returns the file in the same folder whose name is most similar to that of a missing one.

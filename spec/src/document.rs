@@ -126,12 +126,20 @@ impl Document {
             if is_duplicate && is_table {
                 repeated = Some(span.end);
             }
-            let help = match text.get(span.clone()) {
+            let (span, help) = match text.get(span.clone()) {
                 Some(name) if is_table && is_duplicate => {
-                    format!("write `[[{name}]]` for an array of tables, or merge the two tables")
+                    (span, format!("write `[[{name}]]` for an array of tables, or merge the two tables"))
                 }
-                Some(",") => with_point(text, span.start).unwrap_or_else(|| TOML.to_owned()),
-                _ => TOML.to_owned(),
+                Some(_) if text[span.start..].starts_with(',') => {
+                    with_point(text, span.start).unwrap_or_else(|| (span, TOML.to_owned()))
+                }
+                Some(word)
+                    if message.starts_with("string values must be")
+                        && word.starts_with(char::is_alphanumeric) =>
+                {
+                    (span, format!("write it in quotes: `\"{}\"`", word.trim()))
+                }
+                _ => (span, TOML.to_owned()),
             };
             self.found.borrow_mut().push(Diagnostic::new(span, message).help(help));
         }
@@ -281,7 +289,12 @@ impl<'d> Item<'d> {
     fn wrong_type<T>(&self, expected: &str) -> Option<T> {
         let found = self.value.get_ref().type_str();
         let message = format!("`{}` must be {expected}, not {}", self.key, with_article(found));
-        let help = format!("write `{} = …` with {expected}", self.key);
+        let help = match self.value.get_ref() {
+            DeValue::Array(all) if matches!(all.first().map(Spanned::get_ref), Some(DeValue::Table(_))) => {
+                format!("write one table: `[{}]`", self.key)
+            }
+            _ => format!("write `{} = …` with {expected}", self.key),
+        };
         self.document
             .fail(Diagnostic::new(self.span(), message).label(format!("expected {expected}")).help(help))
     }
@@ -446,13 +459,14 @@ impl<'d> Item<'d> {
 /// Help for a line that is not TOML.
 const TOML: &str = "expected TOML: `key = value`, `[table]`";
 
-/// Returns what to write for the number around a comma.
-fn with_point(text: &str, comma: usize) -> Option<String> {
+/// Returns the location of the number around a comma, and what to write for it.
+fn with_point(text: &str, comma: usize) -> Option<(Span, String)> {
     let [before, after] = [text.get(..comma)?, text.get(comma + 1..)?];
     let is_digit = |c: char| c.is_ascii_digit();
     let whole = &before[before.rfind(|c| !is_digit(c)).map_or(0, |at| at + 1)..];
     let part = &after[..after.find(|c| !is_digit(c)).unwrap_or(after.len())];
-    (!whole.is_empty() && !part.is_empty()).then(|| decimal(whole, part))
+    let span = comma - whole.len()..comma + 1 + part.len();
+    (!whole.is_empty() && !part.is_empty()).then(|| (span, decimal(whole, part)))
 }
 
 /// Keys that every table may have for human readers only.

@@ -24,8 +24,8 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
         ("JSON", "in TOML, `\"key\": value` is `key = value`, and a group is a `[table]`".to_owned())
     } else if lines().take(3).all(separated) {
         ("a table of data", format!("pass data after the spec, with a map: `{MEASURE}`"))
-    } else if let Some(language) = language(start) {
-        (language, format!("specs are TOML files; `{GENERATE}` generates code from them"))
+    } else if ["//", "/*", "use ", "import ", "from ", "%"].iter().any(|begin| start.starts_with(begin)) {
+        ("source code", format!("specs are TOML files; `{GENERATE}` generates code from them"))
     } else if lines()
         .take(3)
         .all(|line| line.split_once(':').is_some_and(|(key, _)| !key.contains(['=', '"'])))
@@ -38,15 +38,4 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
     };
     let message = format!("this file is not TOML; it seems to be {what}");
     Some(Diagnostic { message, ..first.clone() }.label("not TOML").help(help))
-}
-
-/// Recognizes a programming language by the first line that is no TOML comment.
-fn language(start: &str) -> Option<&'static str> {
-    const BEGINS: [(&str, &[&str]); 3] = [
-        ("Rust", &["//!", "///", "use ", "pub ", "fn ", "mod ", "impl ", "struct "]),
-        ("Python", &["import ", "from ", "def ", "class ", "\"\"\""]),
-        ("source code", &["//", "/*", "function ", "export ", "const ", "void ", "%"]),
-    ];
-    let begins = BEGINS.iter().find(|(_, begins)| begins.iter().any(|begin| start.starts_with(begin)));
-    begins.filter(|_| !start.contains('=') || start.starts_with('/')).map(|(language, _)| *language)
 }

@@ -149,7 +149,7 @@ fn files_of_another_kind_are_called_by_their_names() {
         refused(&["measure", "scara", path(&file), "--map", &map], said);
     }
     let code = write(folder.path(), "arm.rs", "//! An arm.\nuse abbe::Pose;\n");
-    refused(&["check", path(&code)], "it seems to be Rust");
+    refused(&["check", path(&code)], "it seems to be source code");
 }
 
 /// A subnormal σ: its reciprocal overflowed, and the decomposition of the weighted rows did not

@@ -4,7 +4,7 @@
 use super::reach::reaches_beyond;
 use super::{
     Allowed, Binary, Dimension, Entry, Expression, FUNCTION_NAMES, Function, Kind, LARGEST, Lookup, Scope,
-    Term, UNIT_NAMES, Unit,
+    Term, Unit, unit_meant,
 };
 use crate::diagnostic::{Diagnostic, Span, first, nearest_after};
 
@@ -289,9 +289,11 @@ fn unknown(name: &str, span: Span, scope: &Scope, found: usize) -> Diagnostic {
         }
     }
     let tables = scope.tables.iter().map(|table| table.name.as_str());
-    let candidates = names.iter().copied().chain(tables).chain(FUNCTION_NAMES).chain(UNIT_NAMES);
-    match nearest_after(found, name, candidates) {
-        Some(near) => mistake.help(format!("did you mean `{near}`?")),
+    let candidates = names.iter().copied().chain(tables).chain(FUNCTION_NAMES);
+    let near = nearest_after(found, name, candidates).map(|near| format!("did you mean `{near}`?"));
+    // A letter may be anything.
+    match near.or_else(|| unit_meant(name).filter(|_| name.len() > 1)) {
+        Some(help) => mistake.help(help),
         None if names.is_empty() => mistake.help("this spec declares no variables, parameters or inputs"),
         None => mistake.help(format!("declared names: {}", first(&names))),
     }

@@ -27,4 +27,4 @@ pub use unit::{LARGEST, UNIT_NAMES, Unit};
 
 pub(crate) use parse::{parse_expression, parse_transform, parse_unit};
 pub(crate) use tokens::{LocatedText, TextLocation, Token, tokens};
-pub(crate) use unit::{unit_help, unit_spelling};
+pub(crate) use unit::{unit_help, unit_meant, unit_spelling};

@@ -129,27 +129,34 @@ impl<'p> Parser<'p> {
         match self.peek() {
             Token::End => Ok(()),
             Token::Word(name) if Unit::named(name).is_some() => {
-                Err(Diagnostic::new(self.here(), format!("the unit `{name}` must follow a number"))
-                    .help("only numbers take a unit; names already have theirs"))
+                let mistake = Diagnostic::new(self.here(), format!("the unit `{name}` must follow a number"));
+                Err(match self.at.checked_sub(1).map(|before| &self.tokens[before]) {
+                    Some((Token::Word(unit), span)) if Unit::named(unit).is_some() => {
+                        let span = self.place.span(span.start..self.tokens[self.at].1.end);
+                        let help = format!("write the product of units with `*`: `{unit}*{name}`");
+                        Diagnostic { span: Some(span), ..mistake }.help(help)
+                    }
+                    _ => mistake.help("only numbers take a unit; names already have theirs"),
+                })
             }
             _ => {
                 let mistake = self.unexpected("an operator or the end");
-                let help = self.with_point().filter(|_| self.peek() == Token::Sign(','));
-                Err(match help {
-                    Some(help) => mistake.help(help),
+                Err(match self.with_point().filter(|_| self.peek() == Token::Sign(',')) {
+                    Some((span, help)) => Diagnostic { span: Some(span), ..mistake }.help(help),
                     None => mistake,
                 })
             }
         }
     }
 
-    /// Returns what to write for the number around a comma.
-    fn with_point(&self) -> Option<String> {
+    /// Returns the location of the number around a comma, and what to write for it.
+    fn with_point(&self) -> Option<(Span, String)> {
         let token = |at: usize| self.tokens.get(at).map(|token| token.0);
         let before = self.at.checked_sub(1)?;
         let are_numbers = [before, self.at + 1].iter().all(|at| matches!(token(*at), Some(Token::Number(_))));
         let part = |at: usize| self.text.get(self.tokens[at].1.clone()).unwrap_or_default();
-        are_numbers.then(|| decimal(part(before), part(self.at + 1)))
+        let whole = self.tokens[before].1.start..self.tokens.get(self.at + 1)?.1.end;
+        are_numbers.then(|| (self.place.span(whole), decimal(part(before), part(self.at + 1))))
     }
 
     pub(crate) fn unexpected(&self, expected: &str) -> Diagnostic {

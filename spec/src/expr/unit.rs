@@ -3,7 +3,7 @@
 use abbe_core::LengthUnit;
 
 use super::Dimension;
-use crate::diagnostic::nearest;
+use crate::diagnostic::{meanings, nearest};
 
 /// Largest magnitude that is accepted: its square is finite.
 pub const LARGEST: f64 = 1e150;
@@ -31,28 +31,12 @@ pub const UNIT_NAMES: [&str; 29] = [
 ];
 
 /// Spellings that are no units here, and what to write for them.
-const SPELLINGS: [(&[&str], &str); 20] = [
-    (&["Nm", "newtonmeter"], "N*m"),
-    (&["Nmm"], "N*mm"),
-    (&["kNm"], "kN*m"),
-    (&["micron", "microns", "micrometer", "micrometre"], "um"),
-    (&["in", "inches"], "inch"),
-    (&["mil", "mils", "thou"], "0.001 inch"),
-    (&["ft", "feet"], "12 inch"),
-    (&["millimeter", "millimeters", "millimetre"], "mm"),
-    (&["meter", "meters", "metre", "metres"], "m"),
-    (&["degree", "degrees"], "deg"),
-    (&["radian", "radians"], "rad"),
-    (&["arcminute", "arcminutes", "amin"], "arcmin"),
-    (&["arcsecond", "arcseconds", "asec", "as"], "arcsec"),
-    (&["gon", "grad"], "0.9 deg"),
-    (&["newton", "newtons"], "N"),
-    (&["kgf", "kp"], "9.80665 N"),
-    (&["lbf"], "4.4482216152605 N"),
-    (&["bar"], "100 kPa"),
-    (&["sec", "second", "seconds"], "s"),
-    (&["kilogram", "kilograms", "Kg", "KG"], "kg"),
-];
+const SPELLINGS: &str = "Nm newtonmeter: N*m; Nmm: N*mm; kNm: kN*m; cms centimeter centimetre: cm; k kelvin Kelvin: K;
+    micron microns micrometer micrometre: um; in inches: inch; mil mils thou: 0.001 inch;
+    ft feet: 12 inch; millimeter millimeters millimetre mms MM: mm; meter meters metre metres: m; degree degrees: deg;
+    radian radians: rad; arcminute arcminutes amin: arcmin; arcsecond arcseconds asec as: arcsec;
+    gon grad: 0.9 deg; newton newtons: N; kgf kp: 9.80665 N; lbf: 4.4482216152605 N;
+    bar: 100 kPa; sec second seconds: s; kilogram kilograms kilo kilos kgs Kg KG: kg";
 
 /// Names of temperatures that are no differences.
 const CELSIUS: [&str; 4] = ["degC", "C", "celsius", "Celsius"];
@@ -64,12 +48,21 @@ pub(crate) fn unit_spelling(word: &str) -> Option<String> {
             "temperatures are in `K`: a difference of 1 °C is `1 K`, and 20 °C are `293.15 K`".to_owned(),
         );
     }
-    let (_, unit) = SPELLINGS.iter().find(|(words, _)| words.contains(&word))?;
+    let unit = meanings(SPELLINGS, word).next()?;
     Some(if unit.contains(' ') { format!("1 {word} is `{unit}`") } else { format!("write `{unit}`") })
 }
 
 /// Returns what to write for a word that is no unit: nothing that has another size.
 pub(crate) fn unit_help(word: &str) -> String {
+    unit_meant(word).unwrap_or_else(|| format!("units: {}", UNIT_NAMES.join(" ")))
+}
+
+/// Returns what to write for a word that may mean a unit.
+pub(crate) fn unit_meant(word: &str) -> Option<String> {
+    let base = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    if base.len() < word.len() && Unit::named(base).is_some() {
+        return Some(format!("write powers with `^`: `{base}^{}`", &word[base.len()..]));
+    }
     let is_one_case = word == word.to_lowercase() || word == word.to_uppercase();
     let is_long = |name: &&str| is_one_case && name.len() > 2 && word.len() > 2;
     let in_capitals = || UNIT_NAMES.into_iter().filter(is_long).find(|name| name.eq_ignore_ascii_case(word));
@@ -78,10 +71,8 @@ pub(crate) fn unit_help(word: &str) -> String {
     let is_other = |name: &&str| rest().eq(name.chars()) || rest().eq(name.chars().skip(1));
     let is_name = |name: &&str| (name.len() > 3 || matches!(*name, "deg" | "rad")) && word.len() > 3;
     let near = || nearest(word, UNIT_NAMES.into_iter().filter(|name| is_name(name) && !is_other(name)));
-    unit_spelling(word).unwrap_or_else(|| match in_capitals().or_else(near) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("units: {}", UNIT_NAMES.join(" ")),
-    })
+    let similar = || in_capitals().or_else(near).map(|near| format!("did you mean `{near}`?"));
+    unit_spelling(word).or_else(similar)
 }
 
 impl Unit {

@@ -40,6 +40,7 @@ mod laws;
 mod long_chains;
 mod loops;
 mod machine_tool;
+mod mistakes;
 mod mutants;
 mod operations;
 mod options;

@@ -49,15 +49,6 @@ pub(super) enum Rotation {
     Fixed([usize; 3]),
 }
 
-/// Patterns of a language.
-pub(super) struct Patterns {
-    pub(super) pose: Regex,
-    pub(super) joints: Regex,
-    pub(super) elsewhere: Regex,
-    pub(super) relative: Regex,
-    pub(super) frame: Regex,
-}
-
 /// Pattern of nothing.
 const NEVER: &str = r"\z.";
 
@@ -175,16 +166,11 @@ impl Language {
         LANGUAGES.iter().flat_map(|language| language.endings).copied()
     }
 
-    /// Compiles the patterns.
-    pub(super) fn patterns(&self) -> Option<Patterns> {
+    /// Compiles the patterns of poses, joints, elsewhere, relative positions and frames.
+    pub(super) fn patterns(&self) -> Option<[Regex; 5]> {
         const NUMBER: &str = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)";
         let compiled = |text: &str| Regex::new(&text.replace(' ', r"\s*").replace('#', NUMBER)).ok();
-        Some(Patterns {
-            pose: compiled(self.pose)?,
-            joints: compiled(self.joints)?,
-            elsewhere: compiled(self.elsewhere)?,
-            relative: compiled(self.relative)?,
-            frame: compiled(self.frame)?,
-        })
+        let all = [self.pose, self.joints, self.elsewhere, self.relative, self.frame].map(compiled);
+        all.into_iter().collect::<Option<Vec<Regex>>>()?.try_into().ok()
     }
 }

@@ -100,7 +100,7 @@ impl Program {
             Err(error) => (error.into_bytes().into_iter().map(char::from).collect(), true),
         };
         let language = Language::find(&ending, &text).and_then(|known| Some((known, known.patterns()?)));
-        let Some((language, patterns)) = language else { return Ok(None) };
+        let Some((language, [pose, joints, elsewhere, relative, frame])) = language else { return Ok(None) };
         let starts: Vec<usize> =
             std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
         let line = |at: usize| starts.partition_point(|start| *start <= at);
@@ -108,11 +108,11 @@ impl Program {
         let start = |found: &Captures<'_>| {
             let at = found.get(0).map_or(0, |all| all.start());
             let before = &text[starts[line(at) - 1]..at];
-            let is_point = !before.contains(language.comment) && !patterns.elsewhere.is_match(before);
+            let is_point = !before.contains(language.comment) && !elsewhere.is_match(before);
             is_point.then_some(at)
         };
         let mut points: Vec<Point> = Vec::new();
-        for (pattern, is_pose) in [(&patterns.pose, true), (&patterns.joints, false)] {
+        for (pattern, is_pose) in [(&pose, true), (&joints, false)] {
             points.extend(pattern.captures_iter(&text).filter_map(|found| {
                 let line = line(start(&found)?) as u64;
                 let number = |text: &str| text.parse().unwrap_or(f64::NAN);
@@ -132,10 +132,10 @@ impl Program {
             let number = found.get(1).map(|number| number.start());
             number.is_some_and(|at| points.binary_search_by_key(&at, place).is_ok())
         };
-        let relative = patterns.relative.captures_iter(&text).filter(|found| !is_read(found));
+        let relative = relative.captures_iter(&text).filter(|found| !is_read(found));
         let mut relative: Vec<usize> = relative.filter_map(|found| start(&found)).map(line).collect();
         relative.dedup();
-        let frame_line = patterns.frame.captures_iter(&text).find_map(|found| {
+        let frame_line = frame.captures_iter(&text).find_map(|found| {
             let at = found.get(0)?.start();
             (!text[starts[line(at) - 1]..at].contains(language.comment)).then(|| line(at))
         });
