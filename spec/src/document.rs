@@ -130,7 +130,7 @@ impl Document {
                 Some(name) if is_table && is_duplicate => {
                     (span, format!("write `[[{name}]]` for an array of tables, or merge the two tables"))
                 }
-                Some(_) if text[span.start..].starts_with(',') => {
+                Some(_) if text.get(span.start..).is_some_and(|rest| rest.starts_with(',')) => {
                     with_point(text, span.start).unwrap_or_else(|| (span, TOML.to_owned()))
                 }
                 Some(word)
@@ -463,8 +463,8 @@ const TOML: &str = "expected TOML: `key = value`, `[table]`";
 fn with_point(text: &str, comma: usize) -> Option<(Span, String)> {
     let [before, after] = [text.get(..comma)?, text.get(comma + 1..)?];
     let is_digit = |c: char| c.is_ascii_digit();
-    let whole = &before[before.rfind(|c| !is_digit(c)).map_or(0, |at| at + 1)..];
-    let part = &after[..after.find(|c| !is_digit(c)).unwrap_or(after.len())];
+    let whole = &before[before.trim_end_matches(is_digit).len()..];
+    let part = &after[..after.len() - after.trim_start_matches(is_digit).len()];
     let span = comma - whole.len()..comma + 1 + part.len();
     (!whole.is_empty() && !part.is_empty()).then(|| (span, decimal(whole, part)))
 }
