@@ -164,7 +164,7 @@ fn other_files_are_named() {
         ("a.xlsx", b"PK\x03\x04\x14", ["zip", "zip"]),
         ("a.txt", &utf_16, ["UTF-16", "UTF-16"]),
         ("a.urdf", urdf.as_bytes(), ["XML", "XML"]),
-        ("a.rs", rust.as_bytes(), ["Rust", "column"]),
+        ("a.rs", rust.as_bytes(), ["source code", "column"]),
         ("a.csv", DATA.as_bytes(), ["table of data", ""]),
         ("a.toml", ARM.as_bytes(), ["", "TOML"]),
     ] {
