@@ -25,7 +25,7 @@ pub(crate) struct Compensate {
     #[command(flatten)]
     subject: Subject,
     /// Joint commands: a CSV file with the joint and input columns of the map; or the program of a
-    /// robot (RAPID, KRL, TP as `.ls`, URScript, Mecademic), whose positions are corrected in place
+    /// robot (RAPID, KRL, TP as `.ls`, URScript, Mecademic), whose positions are corrected
     #[arg(value_hint = ValueHint::FilePath)]
     data: PathBuf,
     /// Pose in F_0 of the frame in which a program has its positions (work object, user frame,
@@ -62,6 +62,10 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome> {
     arguments.common.running.start()?;
     let machine = arguments.subject.machine()?;
     let program = Program::read(&arguments.data)?;
+    if arguments.frame.is_some() && program.is_none() {
+        let message = "only a program has its positions in a frame";
+        return Err(Failure::new("--frame", message).help("leave `--frame` out, or give a program"));
+    }
     let frame = arguments.frame.as_ref().map(|text| read_frame(text, machine.spec.length)).transpose()?;
     let mut map = match (&program, &arguments.map) {
         (Some(program), None) => program.map(&machine.spec),

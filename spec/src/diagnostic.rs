@@ -153,10 +153,10 @@ pub(crate) fn decimal(whole: &str, part: &str) -> String {
 }
 
 /// Words that others use, and the names that they mean.
-const MEANT: &str = "gaussian gauss sigma: normal; rectangular rect even: uniform; stochastic noise: random;
+const MEANT: &str = "gaussian gauss: normal; rectangular rect: uniform; stochastic noise: random;
     systematic deterministic: repeatable; linear slide sliding translational: prismatic; type: kind;
     rotary rotational hinge: revolute; unit units: length; range bounds: limits; link body: frame;
-    value size: error; robot machine: manipulator; trans transx: Tx; rotx: Rx; roty: Ry; rotz: Rz;
+    value: error; robot machine: manipulator; trans transx: Tx; rotx: Rx; roty: Ry; rotz: Rz;
     ex dx: e_x; ey dy: e_y; ez dz: e_z; erx e_rx rx drx ea e_a: e_p; ery e_ry ry dry eb e_b: e_s;
     erz e_rz rz drz ec e_c: e_r";
 

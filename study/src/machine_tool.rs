@@ -148,7 +148,7 @@ fn motion_errors(text: &mut String, axis: Axis) {
             (false, false, true) => format!("8 um * {variable}/({TRAVEL} mm)"),
             (false, false, false) => format!("3 um * sin(pi*{variable}/({TRAVEL} mm))"),
             (false, true, _) => format!("10e-6 * {variable}/({TRAVEL} mm)"),
-            (true, false, true) => "1 um".to_owned() + &format!(" * cos(2*{variable})"),
+            (true, false, true) => format!("1 um * cos(2*{variable})"),
             (true, false, false) => format!("2 um * sin({variable})"),
             (true, true, true) => format!("15e-6 * sin({variable})"),
             (true, true, false) => format!("5e-6 * cos({variable})"),

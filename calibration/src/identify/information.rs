@@ -2,9 +2,8 @@
 
 use core::convert::Infallible;
 
-use nalgebra::{
-    Cholesky, Const, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix, allocator::Allocator,
-};
+use nalgebra::allocator::Allocator;
+use nalgebra::{Cholesky, Const, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
 use super::{EvaluatedModel, Measurement, Model, Observation, Result, by_blocks};
 use abbe_analysis::{decompose::symmetric_eigen, in_order};

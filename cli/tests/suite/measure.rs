@@ -341,4 +341,26 @@ fn displacements_begin_anew_in_each_setup() {
     assert!((1..4).all(|i| near(i, 50.0)) && (5..7).all(|i| near(i, 40.0)), "{text}");
     let report = json(&["measure", "pps", path(&rows), "--map", path(&map), "--json"]);
     assert_eq!(report["rows"], 5, "{report}");
+    // An instrument of every setup goes on.
+    let always = laser("always", 3).replace("setup = 3\n", "").replace("\"travelled\"", "\"whole\"");
+    let text = fs::read_to_string(&map).unwrap() + &always;
+    let map = write(folder.path(), "always.toml", &text);
+    let simulate = [
+        "simulate",
+        "pps",
+        path(&plan),
+        "--map",
+        path(&map),
+        "--noise",
+        "0",
+        "--out",
+        path(&rows),
+        "--force",
+    ];
+    prints(&simulate);
+    let text = fs::read_to_string(&rows).unwrap();
+    let heading: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let place = heading.iter().position(|name| *name == "whole").unwrap();
+    let empty = text.lines().skip(1).filter(|line| line.split(',').nth(place).unwrap().is_empty()).count();
+    assert_eq!(empty, 1, "{text}");
 }

@@ -103,10 +103,13 @@ impl Instruments {
         self.list.iter().any(|instrument| instrument.kind.reference == Reference::PreviousRow)
     }
 
-    /// Removes the readings that refer to the previous row.
-    pub(super) fn at_first(&self, mut readings: Vec<Option<f64>>) -> Vec<Option<f64>> {
-        let moved = self.list.iter().filter(|instrument| instrument.kind.reference == Reference::PreviousRow);
-        moved.for_each(|instrument| readings[instrument.observables.clone()].fill(None));
+    /// Removes the readings that refer to the previous row, of all instruments or of those alone
+    /// that a setup has.
+    pub(super) fn at_first(&self, mut readings: Vec<Option<f64>>, of_setups: bool) -> Vec<Option<f64>> {
+        let moved = self.list.iter().filter(|one| one.kind.reference == Reference::PreviousRow);
+        moved
+            .filter(|one| one.setup.is_some() || !of_setups)
+            .for_each(|instrument| readings[instrument.observables.clone()].fill(None));
         readings
     }
 

@@ -344,8 +344,8 @@ impl Map {
         Observation::new(line, q, u, self.unmeasured(None))
     }
 
-    /// Links each row to the previous one of its setup, if an instrument refers to it: another
-    /// setup begins anew.
+    /// Links each row to the previous one, if an instrument refers to it: the instruments of
+    /// another setup begin anew.
     pub(crate) fn in_sequence(&self, mut rows: Vec<Observation>) -> Vec<Observation> {
         let Some(all) = self.instruments().filter(|all| all.depend_on_previous_row()) else { return rows };
         let mut before: Option<Observation> = None;
@@ -355,9 +355,10 @@ impl Map {
                 Measurement::Readings(readings) => all.setup_of(readings),
                 _ => None,
             };
-            let from = before.replace(row.clone()).filter(|from| setup(from) == setup(row));
-            if let (None, Measurement::Readings(readings)) = (&from, &mut row.measured) {
-                *readings = all.at_first(std::mem::take(readings));
+            let from = before.replace(row.clone());
+            let is_same = from.as_ref().is_some_and(|from| setup(from) == setup(row));
+            if let (false, Measurement::Readings(readings)) = (is_same, &mut row.measured) {
+                *readings = all.at_first(std::mem::take(readings), from.is_some());
             }
             row.approach_mut().from = from.map(Box::new);
         }

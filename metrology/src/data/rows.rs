@@ -367,7 +367,9 @@ fn measured_numbers(record: &Record, places: &[usize], map: &Map) -> Result<Vec<
 /// Returns whether a row has readings that refer to a previous row, without there being one.
 fn moved_from_nowhere(row: &Observation, before: Option<&Observation>, map: &Map) -> bool {
     match (map.instruments(), &row.measured, before) {
-        (Some(all), Measurement::Readings(readings), None) => all.at_first(readings.clone()) != *readings,
+        (Some(all), Measurement::Readings(readings), None) => {
+            all.at_first(readings.clone(), false) != *readings
+        }
         _ => false,
     }
 }

@@ -272,13 +272,6 @@ impl Evaluation {
     }
 }
 
-impl Evaluation {
-    /// Returns the characteristics of one direction, that from below if there are both.
-    pub fn one_direction(&self) -> Option<Unidirectional> {
-        self.forward.or(self.reverse)
-    }
-}
-
 impl PositionResult {
     fn new(target: &TargetRuns) -> Self {
         let [forward, reverse] =

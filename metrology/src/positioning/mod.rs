@@ -164,7 +164,7 @@ impl Report {
     pub fn figures(&self) -> Vec<(&'static str, Option<Characteristic>)> {
         let first = self.lines.first().map(|line| &line.evaluation);
         let both = first.and_then(|evaluation| evaluation.bidirectional.as_ref());
-        match (&self.diagonals, both, first.and_then(Evaluation::one_direction)) {
+        match (&self.diagonals, both, first.and_then(|first| first.forward.or(first.reverse))) {
             (Some(all), ..) => vec![("E_d", all.systematic), ("B_d", all.reversal)],
             (None, Some(both), _) => vec![
                 ("A", both.accuracy),

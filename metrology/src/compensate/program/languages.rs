@@ -12,8 +12,8 @@ pub(super) struct Language {
     pub(super) name: &'static str,
     /// Endings of the names of files.
     endings: &'static [&'static str],
-    /// Text that such a file has.
-    has: &'static str,
+    /// Beginnings of a line, one of which such a file has; nothing if its ending is enough.
+    begins: &'static [&'static str],
     /// Beginning of a comment.
     pub(super) comment: &'static str,
     /// Pattern of the position and orientation of the tool.
@@ -59,7 +59,7 @@ pub(super) const LANGUAGES: [Language; 5] = [
     Language {
         name: "RAPID (ABB)",
         endings: &["mod", "modx", "prg", "sys"],
-        has: "MODULE",
+        begins: &["MODULE "],
         comment: "!",
         // robtarget: trans, rot, robconf, extax. A wobjdata or tooldata has no list after rot.
         pose: r"\[ \[ # , # , # \] , \[ # , # , # , # \] , \[",
@@ -76,7 +76,7 @@ pub(super) const LANGUAGES: [Language; 5] = [
     Language {
         name: "KRL (KUKA)",
         endings: &["src", "dat"],
-        has: "DEF",
+        begins: &["DEF ", "DEFDAT ", "DEFFCT ", "GLOBAL DEF"],
         comment: ";",
         pose: r"(?i)\{ (?:\w+ : )?X # , Y # , Z # , A # , B # , C #",
         joints: r"(?i)\{ (?:\w+ : )?A1 # , A2 # , A3 # , A4 # , A5 # , A6 #",
@@ -92,7 +92,7 @@ pub(super) const LANGUAGES: [Language; 5] = [
     Language {
         name: "TP (FANUC)",
         endings: &["ls"],
-        has: "/POS",
+        begins: &["/POS"],
         comment: "//",
         pose: r"X = # mm , Y = # mm , Z = # mm , W = # deg , P = # deg , R = # deg",
         joints: r"J1 = # deg , J2 = # deg , J3 = # deg , J4 = # deg , J5 = # deg , J6 = # deg",
@@ -107,7 +107,7 @@ pub(super) const LANGUAGES: [Language; 5] = [
     Language {
         name: "URScript (Universal Robots)",
         endings: &["script", "urscript"],
-        has: "",
+        begins: &[],
         comment: "#",
         pose: r"\bp\[ # , # , # , # , # , # \]",
         joints: r"(?:\b(?:move[jlcp]|servoj|get_forward_kin) \(|_q =) \[ # , # , # , # , # , # \]",
@@ -122,7 +122,7 @@ pub(super) const LANGUAGES: [Language; 5] = [
     Language {
         name: "Mecademic",
         endings: &["mxprog"],
-        has: "",
+        begins: &[],
         comment: "//",
         pose: r"\bMove(?:Pose|Lin) \( # , # , # , # , # , # \)",
         joints: r"\bMoveJoints \( # , # , # , # , # , # \)",
@@ -137,10 +137,18 @@ pub(super) const LANGUAGES: [Language; 5] = [
 ];
 
 impl Language {
-    /// Returns the language of a file with this ending and text.
-    pub(super) fn find(ending: &str, text: &str) -> Option<&'static Self> {
-        let ending = ending.to_ascii_lowercase();
-        LANGUAGES.iter().find(|language| language.endings.contains(&&*ending) && text.contains(language.has))
+    /// Returns the language of files with this ending.
+    pub(super) fn find(ending: &str) -> Option<&'static Self> {
+        LANGUAGES.iter().find(|language| language.endings.iter().any(|one| ending.eq_ignore_ascii_case(one)))
+    }
+
+    /// Returns whether a text begins as a program does, in one of its lines.
+    pub(super) fn has_begun(&self, text: &str) -> bool {
+        let is_begun = |line: &str| {
+            let line = line.trim_start().to_ascii_uppercase();
+            self.begins.iter().any(|begin| line.starts_with(begin))
+        };
+        self.begins.is_empty() || text.lines().any(is_begun)
     }
 
     /// Returns the orientation, as columns of a table have it.
@@ -159,11 +167,6 @@ impl Language {
         if matches!(self.rotation, Rotation::Fixed(_)) {
             numbers.reverse();
         }
-    }
-
-    /// Returns all endings.
-    pub(super) fn endings() -> impl Iterator<Item = &'static str> {
-        LANGUAGES.iter().flat_map(|language| language.endings).copied()
     }
 
     /// Compiles the patterns of poses, joints, elsewhere, relative positions and frames.

@@ -3,10 +3,8 @@
 
 mod languages;
 
-use std::{
-    ops::Range,
-    path::{Path, PathBuf},
-};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use abbe::analysis::{InverseKinematics, sampling};
 use abbe::identify::Observation;
@@ -22,7 +20,7 @@ use super::Row;
 use crate::data::{Channel, Data, Map, Scale, Unusable, from_numbers, to_numbers};
 use languages::{LANGUAGES, Language};
 
-/// Number of joints that every language can name.
+/// Number of joints of a joint target.
 const JOINTS: usize = 6;
 /// Largest size of a program.
 const LARGEST: u64 = 1 << 26;
@@ -41,8 +39,8 @@ pub struct Program {
     is_latin: bool,
     language: &'static Language,
     points: Vec<Point>,
-    /// Lines of positions that are relative or incomplete.
-    relative: Vec<usize>,
+    /// Lines of positions that are left as they are: relative and incomplete ones, frames, tools.
+    left: Vec<usize>,
     /// Line that sets the frame of positions.
     frame_line: Option<usize>,
 }
@@ -80,16 +78,14 @@ pub fn read_frame(transform: &str, length: LengthUnit) -> Result<Pose> {
 }
 
 impl Program {
-    /// Reads a program; `None` if the ending of the name is not that of one.
+    /// Reads a program; `None` if the ending of the name or the text is not that of one.
     ///
     /// # Errors
     ///
     /// The file cannot be read, or has no positions.
     pub fn read(path: &Path) -> Result<Option<Self>> {
         let ending = path.extension().unwrap_or_default().to_string_lossy();
-        if !Language::endings().any(|known| ending.eq_ignore_ascii_case(known)) {
-            return Ok(None);
-        }
+        let Some(language) = Language::find(&ending) else { return Ok(None) };
         let bytes = Bounded::read_all(path, LARGEST).map_err(|error| {
             let UnreadableFile { message, help } =
                 UnreadableFile::from_error(&error, "give the path of a file that can be read");
@@ -99,26 +95,29 @@ impl Program {
             Ok(text) => (text, false),
             Err(error) => (error.into_bytes().into_iter().map(char::from).collect(), true),
         };
-        let language = Language::find(&ending, &text).and_then(|known| Some((known, known.patterns()?)));
-        let Some((language, [pose, joints, elsewhere, relative, frame])) = language else { return Ok(None) };
+        let patterns = language.patterns().filter(|_| language.has_begun(&text));
+        let Some([pose, joints, elsewhere, relative, frame]) = patterns else { return Ok(None) };
         let starts: Vec<usize> =
             std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
         let line = |at: usize| starts.partition_point(|start| *start <= at);
-        // Returns the start of what is neither in a comment nor a frame, tool or step.
+        let before = |at: usize| &text[starts[line(at) - 1]..at];
+        // Returns the start of what is not in a comment.
         let start = |found: &Captures<'_>| {
-            let at = found.get(0).map_or(0, |all| all.start());
-            let before = &text[starts[line(at) - 1]..at];
-            let is_point = !before.contains(language.comment) && !elsewhere.is_match(before);
-            is_point.then_some(at)
+            let at = found.get(0)?.start();
+            (!before(at).contains(language.comment)).then_some(at)
         };
-        let mut points: Vec<Point> = Vec::new();
+        let (mut points, mut left) = (Vec::new(), Vec::new());
         for (pattern, is_pose) in [(&pose, true), (&joints, false)] {
-            points.extend(pattern.captures_iter(&text).filter_map(|found| {
-                let line = line(start(&found)?) as u64;
+            for found in pattern.captures_iter(&text) {
+                let Some(at) = start(&found) else { continue };
+                if elsewhere.is_match(before(at)) {
+                    left.push(line(at));
+                    continue;
+                }
                 let number = |text: &str| text.parse().unwrap_or(f64::NAN);
                 let numbers = found.iter().skip(1).flatten().map(|one| (one.range(), number(one.as_str())));
-                Some(Point { line, is_pose, numbers: numbers.collect() })
-            }));
+                points.push(Point { line: line(at) as u64, is_pose, numbers: numbers.collect() });
+            }
         }
         let place = |point: &Point| point.numbers[0].0.start;
         points.sort_by_key(place);
@@ -133,13 +132,11 @@ impl Program {
             number.is_some_and(|at| points.binary_search_by_key(&at, place).is_ok())
         };
         let relative = relative.captures_iter(&text).filter(|found| !is_read(found));
-        let mut relative: Vec<usize> = relative.filter_map(|found| start(&found)).map(line).collect();
-        relative.dedup();
-        let frame_line = frame.captures_iter(&text).find_map(|found| {
-            let at = found.get(0)?.start();
-            (!text[starts[line(at) - 1]..at].contains(language.comment)).then(|| line(at))
-        });
-        Ok(Some(Self { path: path.to_owned(), is_latin, language, points, relative, frame_line, text }))
+        left.extend(relative.filter_map(|found| start(&found)).map(line));
+        left.sort_unstable();
+        left.dedup();
+        let frame_line = frame.captures_iter(&text).find_map(|found| start(&found)).map(line);
+        Ok(Some(Self { path: path.to_owned(), is_latin, language, points, left, frame_line, text }))
     }
 
     /// Returns the map of the joints of a machine: its variables are the joints of the program, in
@@ -176,13 +173,6 @@ impl Program {
     ) -> Result<Data> {
         let description = machine.description();
         let inverse = InverseKinematics::new(machine, &sampling::nominal_parameters(description));
-        let inverse = match inverse {
-            Err(reason) if self.points.iter().any(|point| point.is_pose) => {
-                let help = "write joint targets in place of positions";
-                return Err(mistake::with_help(&description.name, reason, help));
-            }
-            inverse => inverse.ok(),
-        };
         let u = map.inputs.iter().map(|channel| match channel {
             Channel::Fixed(value) => Ok(*value),
             _ => {
@@ -195,13 +185,14 @@ impl Program {
         let mut data =
             Data { file: self.path.display().to_string(), files: vec![self.path.clone()], ..Data::default() };
         for (index, point) in self.points.iter().enumerate() {
-            let found = match (point.is_pose, &inverse) {
-                (true, Some(inverse)) => self.pose(point, description.length).and_then(|pose| {
+            let found = match point.is_pose {
+                true => self.pose(point, description.length).and_then(|pose| {
                     let pose = frame.map_or(pose, |frame| frame.then(&pose));
+                    let inverse = inverse.as_ref().map_err(ToString::to_string)?;
                     let all = inverse.solve(&last, &pose).map_err(|error| error.to_string())?;
                     all.into_iter().next().ok_or_else(|| "out of reach".to_owned())
                 }),
-                _ => {
+                false => {
                     let value = |(place, scale): &JointChannel| {
                         scale.value(place.map_or(0.0, |place| point.numbers[place].1))
                     };
@@ -226,15 +217,13 @@ impl Program {
 
     /// Finds the numbers of joint targets of which a map makes joints.
     fn channels(&self, map: &Map) -> Result<Vec<JointChannel>> {
-        let joints =
-            self.points.iter().find(|point| !point.is_pose).map_or(JOINTS, |point| point.numbers.len());
         let letter = self.language.joint;
         let channel = |channel: &Channel| match channel {
             Channel::Column(column, scale) => {
                 let number = column.name.strip_prefix(letter).and_then(|number| number.parse().ok());
-                let place = number.filter(|number| (1..=joints).contains(number)).ok_or_else(|| {
+                let place = number.filter(|number| (1..=JOINTS).contains(number)).ok_or_else(|| {
                     let message = format!("a program has no joint `{}`", column.name.escape_debug());
-                    let help = format!("its joints are `{letter}1` to `{letter}{joints}`");
+                    let help = format!("its joints are `{letter}1` to `{letter}{JOINTS}`");
                     mistake::with_help(map.path(), message, help)
                 })?;
                 Ok((Some(place - 1), *scale))
@@ -249,6 +238,9 @@ impl Program {
     fn pose(&self, point: &Point, length: LengthUnit) -> Result<Pose, String> {
         let mut numbers: Vec<f64> = point.numbers.iter().map(|(_, number)| *number).collect();
         self.language.in_order(&mut numbers[3..]);
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return Err("its numbers are not finite".to_owned());
+        }
         let [x, y, z] = from_numbers(&self.language.turn(), &numbers[3..])?;
         Ok(Pose([x, y, z, [0, 1, 2].map(|i| numbers[i] * self.language.metres / length.in_metres())]))
     }
@@ -294,12 +286,12 @@ impl Program {
                 number::variables(&row.q, spec)
             ));
         }
-        let lines: Vec<String> = self.relative.iter().take(NAMED).map(usize::to_string).collect();
+        let lines: Vec<String> = self.left.iter().take(NAMED).map(usize::to_string).collect();
         if !lines.is_empty() {
-            let more = self.relative.len() - lines.len();
+            let more = self.left.len() - lines.len();
             let more = if more > 0 { format!(" and {more} more") } else { String::new() };
             notes.warn(&format!(
-                "relative or incomplete positions are left as they are: line {}{more}",
+                "left as they are, as steps, frames, tools or incomplete positions: line {}{more}",
                 lines.join(", ")
             ));
         }
