@@ -9,7 +9,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::Duration;
 
-use crate::diagnostic::nearest_file;
+use crate::diagnostic::{Diagnostics, nearest_file};
+use crate::mistake;
 
 /// Maximum time without data from a pipe.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -41,6 +42,12 @@ impl UnreadableFile {
             Some(unfit) => unfit.clone(),
             None => Self::new(format!("cannot read this file: {error}"), help),
         }
+    }
+
+    /// Returns the diagnostics of a file that cannot be read. `help` is as in [`Self::from_error`].
+    pub fn diagnostics(file: impl fmt::Display, error: &io::Error, help: &str) -> Diagnostics {
+        let Self { message, help } = Self::from_error(error, help);
+        mistake::with_help(file, message, help)
     }
 }
 

@@ -23,13 +23,10 @@ pub fn with_help(subject: impl Display, message: impl Display, help: impl Displa
 /// The message names the sources that can have caused the error.
 pub fn not_evaluated(what: impl Display, at: &str, error: &Error, description: &Description) -> Diagnostics {
     let blamed = blamed(error, description);
-    let help = match blamed.is_empty() {
-        true => error.remedy().to_owned(),
-        false => {
-            format!(
-                "check its expression and the values set; or disable it: `{DISABLE_NAME}`, `enabled = false`"
-            )
-        }
+    let help = if blamed.is_empty() {
+        error.remedy().to_owned()
+    } else {
+        format!("check its expression and the values set; or disable it: `{DISABLE_NAME}`, `enabled = false`")
     };
     let message = match blamed.as_slice() {
         [] => format!("at {at}: {}", named(error, description)),

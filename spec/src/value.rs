@@ -65,8 +65,7 @@ pub fn parse_value(
 
 /// Returns the diagnostic of a word that is neither a unit nor a function.
 fn unknown_word(word: &str, span: Span) -> Option<Diagnostic> {
-    let known = [&UNIT_NAMES[..], &FUNCTION_NAMES, &["pi"]].concat();
-    if known.contains(&word) {
+    if [&UNIT_NAMES[..], &FUNCTION_NAMES, &["pi"]].concat().contains(&word) {
         return None;
     }
     let function = || nearest(word, FUNCTION_NAMES).map(|near| format!("did you mean `{near}`?"));

@@ -33,10 +33,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     }
     let mut visible = String::with_capacity(text.len() + 16);
     for c in text.chars() {
-        match escaped(c) {
-            true => visible += &format!("\\u{:04x}", u32::from(c)),
-            false => visible.push(c),
-        }
+        if escaped(c) { visible += &format!("\\u{:04x}", u32::from(c)) } else { visible.push(c) }
     }
     Cow::Owned(visible)
 }

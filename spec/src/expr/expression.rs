@@ -122,8 +122,7 @@ impl Expression {
 
     /// Creates a variable, parameter or input.
     pub(crate) fn symbol(symbol: Symbol, dimension: Option<Dimension>, span: Span) -> Self {
-        let kind = Kind::Symbol(symbol);
-        Self::new(vec![Term { kind, dimension, value: None, span, bare: false }])
+        Self::new(vec![Term { kind: Kind::Symbol(symbol), dimension, value: None, span, bare: false }])
     }
 
     /// Negates the expression.

@@ -84,6 +84,13 @@ pub struct Entry<'a> {
     pub names: Allowed,
 }
 
+impl<'a> Entry<'a> {
+    /// Creates requirements.
+    pub fn new(dimension: impl Into<Option<Dimension>>, what: &'a str, names: Allowed) -> Self {
+        Self { dimension: dimension.into(), what, names }
+    }
+}
+
 /// Names that an entry may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Allowed {

@@ -100,8 +100,7 @@ fn read_symbol(section: &Section<'_>, place: &Item<'_>, chain: Chain<'_>) -> Opt
     let (number, dimension) = find_symbol(place, chain)?;
     let name = place.string()?;
     let what = format!("the error of `{name}`");
-    let entry = Entry { dimension, what: &what, names: Allowed::Everything };
-    let error = error?.expression(chain.scope, entry)?;
+    let error = error?.expression(chain.scope, Entry::new(dimension, &what, Allowed::Everything))?;
     if matches!(number, ChainNumber::Joint(_)) && dimension == Some(Dimension::NONE) {
         check_error_of_angle(&error, section.document);
     }
@@ -115,8 +114,7 @@ fn read_stiffness(section: &Section<'_>, place: &Item<'_>, chain: Chain<'_>) -> 
     let quantity = |key: &str, dimension: Option<Dimension>| {
         let item = section.get(key)?;
         let what = format!("`{key}`");
-        let entry = Entry { dimension, what: &what, names: Allowed::Everything };
-        Some(item.expression(chain.scope, entry))
+        Some(item.expression(chain.scope, Entry::new(dimension, &what, Allowed::Everything)))
     };
     // Small exponents cannot overflow.
     let stiffness = quantity("stiffness", load.over(dimension.unwrap_or(Dimension::NONE)))??;
@@ -197,8 +195,7 @@ fn read_numbers(section: &Section<'_>, place: &Item<'_>, chain: Chain<'_>) -> Op
         let item = table.get(number.name())?;
         let what = format!("the error of `{}`", number.name());
         let dimension = Some(motion_dimension(number.motion().0));
-        let entry = Entry { dimension, what: &what, names: Allowed::Everything };
-        let error = item.expression(chain.scope, entry);
+        let error = item.expression(chain.scope, Entry::new(dimension, &what, Allowed::Everything));
         if number.motion().0 == Motion::Rotation {
             error.iter().for_each(|error| check_error_of_angle(error, section.document));
         }

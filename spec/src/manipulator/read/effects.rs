@@ -85,8 +85,7 @@ fn read_errors(section: &Section<'_>, scope: &Scope) -> Option<Vec<(Component, E
             Motion::Rotation => (Dimension::NONE, "rotation about"),
         };
         let what = format!("`{}`, a {verb} {},", component.name(), ["x", "y", "z"][axis]);
-        let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
-        let value = item.expression(scope, entry);
+        let value = item.expression(scope, Entry::new(dimension, &what, Allowed::Everything));
         if dimension == Dimension::NONE && section.get("magnitude").is_none() {
             value.iter().for_each(|value| check_error_of_angle(value, section.document));
         }

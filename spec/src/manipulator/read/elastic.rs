@@ -64,9 +64,7 @@ pub(super) fn read_compliance(item: &Item<'_>, scope: &Scope) -> Option<Complian
     let table = item.table("`compliance`", &[&keys::COMPLIANCE])?;
     let entry = |row: usize, column: usize, item: &Item<'_>| {
         let what = format!("the compliance of {} per {}", Component::ALL[row].name(), WRENCH[column]);
-        let entry =
-            Entry { dimension: Some(dimension(row, column)), what: &what, names: Allowed::Everything };
-        item.expression(scope, entry)
+        item.expression(scope, Entry::new(dimension(row, column), &what, Allowed::Everything))
     };
     let mut compliance = Compliance::default();
     match (table.get("diagonal"), table.get("matrix")) {

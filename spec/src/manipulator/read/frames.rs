@@ -124,8 +124,7 @@ fn denavit_hartenberg(item: &Item<'_>, scope: &Scope, convention: DhConvention) 
     let factors = convention.order().map(|number| {
         let (key, (motion, axis)) = (number.name(), number.motion());
         let what = format!("`{key}`");
-        let expected =
-            Entry { dimension: Some(motion_dimension(motion)), what: &what, names: Allowed::Geometry };
+        let expected = Entry::new(motion_dimension(motion), &what, Allowed::Geometry);
         let amount = section.required(key)?.expression(scope, expected)?;
         Some(Factor::Elementary(Elementary { motion, axis, amount }))
     });
@@ -139,8 +138,7 @@ fn origin(item: &Item<'_>, scope: &Scope) -> Option<Vec<Factor>> {
         let Some(item) = section.get(key) else { return Some(Vec::new()) };
         let entries: [Item<'_>; 3] = item.entries("three numbers")?;
         let what = format!("an entry of `{key}`");
-        let expected =
-            Entry { dimension: Some(motion_dimension(motion)), what: &what, names: Allowed::Geometry };
+        let expected = Entry::new(motion_dimension(motion), &what, Allowed::Geometry);
         let amounts = entries.map(|entry| entry.expression(scope, expected));
         let factor = |(axis, amount): (usize, Option<Expression>)| {
             Some(Factor::Elementary(Elementary { motion, axis, amount: amount? }))

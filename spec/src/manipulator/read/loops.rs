@@ -73,12 +73,11 @@ impl RawLoop<'_> {
             true => closes.choice(&CLOSURES)?.to_vec(),
             false => read_coordinates(&closes)?,
         };
-        let closure = match coordinates.is_empty() {
-            true => Closure::Distance(self.read_length(declarations, document)?),
-            false => {
-                self.check_without_length(&closes)?;
-                Closure::Coordinates(coordinates)
-            }
+        let closure = if coordinates.is_empty() {
+            Closure::Distance(self.read_length(declarations, document)?)
+        } else {
+            self.check_without_length(&closes)?;
+            Closure::Coordinates(coordinates)
         };
         Some(Loop { name: self.name.clone(), frames: self.frames?, closure, span: self.section.span.clone() })
     }

@@ -25,39 +25,27 @@ impl Columns {
     /// Reads the file that an item names, relative to the spec, and records it as part of the spec.
     pub(super) fn read(item: &Item<'_>) -> Option<Self> {
         let (file, span) = (item.string()?, item.span());
-        let fail = |message: String, help: &str| {
-            item.document.mistake(Diagnostic::new(span.clone(), message).help(help));
-        };
         let Some(folder) = &item.document.folder else {
             let message =
                 format!("cannot read `{file}`: this spec is not in a file, so relative paths have no folder");
-            fail(message, "read the spec from a file, or include the points: `x = […]`, `y = […]`");
-            return None;
+            let help = "read the spec from a file, or include the points: `x = […]`, `y = […]`";
+            return item.refuse(message, help);
         };
         let path: PathBuf = folder.join(&file);
         let mut bytes = Vec::new();
         let opened = item.document.named_file(&path, LARGEST);
-        let read = opened.and_then(|mut input| input.read_to_end(&mut bytes)).map_err(|error| {
-            match UnreadableFile::from_error(&error, "the path is relative to the folder of the spec") {
-                UnreadableFile { help, .. } if error.raw_os_error().is_some() => {
-                    UnreadableFile::new(format!("cannot read `{file}`: {error}"), help)
-                }
-                UnreadableFile { message, help } => UnreadableFile::new(format!("`{file}`: {message}"), help),
+        let read = opened.and_then(|mut input| input.read_to_end(&mut bytes));
+        let help = "the path is relative to the folder of the spec";
+        let unfit = match &read {
+            Err(error) if error.raw_os_error().is_some() => {
+                return item.refuse(format!("cannot read `{file}`: {error}"), help);
             }
-        });
-        let text = read.and_then(|_| match not_text(&bytes) {
-            Some(UnreadableFile { message, help }) => {
-                Err(UnreadableFile::new(format!("`{file}`: {message}"), help))
-            }
-            None => Ok(bytes),
-        });
-        let bytes = match text {
-            Ok(bytes) => bytes,
-            Err(UnreadableFile { message, help }) => {
-                fail(message, &help);
-                return None;
-            }
+            Err(error) => Some(UnreadableFile::from_error(error, help)),
+            Ok(_) => not_text(&bytes),
         };
+        if let Some(UnreadableFile { message, help }) = unfit {
+            return item.refuse(format!("`{file}`: {message}"), help);
+        }
         item.document.files.borrow_mut().push(path.clone());
         item.document.beside.borrow_mut().push((path, bytes.clone()));
         let mut reader =
@@ -72,10 +60,7 @@ impl Columns {
             });
         match result {
             Ok((names, rows)) => Some(Self { file, span, names, rows }),
-            Err(error) => {
-                fail(format!("`{file}` is not a table: {}", in_words(&error)), FORM);
-                None
-            }
+            Err(error) => item.refuse(format!("`{file}` is not a table: {}", in_words(&error)), FORM),
         }
     }
 

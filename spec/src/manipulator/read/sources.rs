@@ -219,8 +219,7 @@ fn positive(item: &Item<'_>, chain: Chain<'_>) -> Option<f64> {
 fn read_magnitude(item: &Item<'_>, class: Option<Class>, chain: Chain<'_>) -> Option<Magnitude> {
     if class.and_then(Class::distribution).is_some() {
         let help = "remove `magnitude`: the distribution gives the size of the error";
-        let message = "only a repeatable error has a `magnitude`";
-        return item.refuse_key(message, help);
+        return item.refuse_key("only a repeatable error has a `magnitude`", help);
     }
     let table = item.table("`magnitude`", &[&keys::MAGNITUDE])?;
     let number = |item: &Item<'_>| {

@@ -25,8 +25,7 @@ pub(super) fn read_sum_limits(root: &Section<'_>, declarations: &Declarations) -
 fn read_sum_limit(section: &Section<'_>, declarations: &Declarations) -> Option<SumLimit> {
     let item = section.required("sum")?;
     let text = item.string()?;
-    let entry = Entry { dimension: None, what: "the sum", names: Allowed::Geometry };
-    let sum = item.expression(&declarations.scope, entry)?;
+    let sum = item.expression(&declarations.scope, Entry::new(None, "the sum", Allowed::Geometry))?;
     let dimension = sum.whole().dimension.unwrap_or(Dimension::NONE);
     let Some(terms) = weights(&sum, declarations) else {
         let mistake = Diagnostic::new(item.span(), "a limit needs a sum of joint variables")

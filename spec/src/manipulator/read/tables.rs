@@ -18,8 +18,7 @@ impl Declarations {
         let Some(item) = root.get("tables") else { return Some(()) };
         let section = item.section()?;
         let before = root.document.mistakes();
-        let help = "remove tables that no expression uses";
-        item.at_most(section.items().count(), MOST, "tables", help)?;
+        item.at_most(section.items().count(), MOST, "tables", "remove tables that no expression uses")?;
         for item in section.items() {
             check_identifier(&item.key, item.key_span.clone(), root.document);
             if self.scope.tables.iter().any(|table| table.name.eq_ignore_ascii_case(&item.key)) {
@@ -68,10 +67,7 @@ impl Declarations {
         let section = item.table(format!("`{}`", item.key), &[&keys::AXIS])?;
         let unit = section.get("unit").map_or(Some(Unit::NONE), |item| unit(&item, &self.scope))?;
         let (numbers, places) = match columns {
-            Some(columns) => {
-                let column = section.required("column")?;
-                (columns.numbers(&column)?, Vec::new())
-            }
+            Some(columns) => (columns.numbers(&section.required("column")?)?, Vec::new()),
             None => {
                 if let Some(column) = section.get("column") {
                     let message = "`column` names a column of a file, and there is no `file`";
@@ -82,8 +78,7 @@ impl Declarations {
                 let list = self.read_list(&values)?;
                 if list.dimension != Dimension::NONE {
                     let message = format!("the numbers of `{}` already have units", item.key);
-                    let help = "remove `unit`, or the units of the numbers";
-                    return values.refuse(message, help);
+                    return values.refuse(message, "remove `unit`, or the units of the numbers");
                 }
                 (list.values, list.places)
             }
