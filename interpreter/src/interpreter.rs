@@ -132,8 +132,7 @@ impl Interpreter {
         // With its checks.
         self.run(function, arguments)?;
         let tape = self.code.derivatives[function as usize].get_or_init(|| {
-            let routine = parameter_derivatives(&self.spec, function)?;
-            Some(Tape::new(&self.code.routines, &routine))
+            Some(Tape::new(&self.code.routines, &parameter_derivatives(&self.spec, function)?))
         });
         let Some(tape) = tape else { return Ok(None) };
         let values = evaluated(tape, arguments.iter().copied().flatten());

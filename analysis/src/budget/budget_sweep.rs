@@ -33,8 +33,7 @@ pub fn error_budget(
     watch: &mut dyn Watch,
 ) -> Result<Budget, Unevaluated> {
     let sweep = BudgetSweep::new(manipulator, workspace, options)?;
-    let all = sweep.part(0..sweep.chunks(), watch)?;
-    Ok(sweep.finish(all))
+    Ok(sweep.finish(sweep.part(0..sweep.chunks(), watch)?))
 }
 
 /// Error budget that is computed in parts, on one machine or on several.

@@ -97,7 +97,7 @@ impl Combined {
     }
 
     /// Returns the indices of the configurations in the result.
-    pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
+    pub fn indices(&self) -> impl Iterator<Item = usize> + use<> {
         let radii = [self.repeatable_radius, self.random_radius, self.radius];
         let others = [self.standard_radius, self.worst_case_radius];
         let extremes = radii.into_iter().chain(others).map(|extreme| extreme.configuration);

@@ -65,8 +65,7 @@ fn piece_of(lookup: &LookupTable<'_>, x: f64) -> usize {
     if lookup.starts.is_empty() {
         bucket.min(lookup.pieces.len() - 1)
     } else {
-        let next = lookup.knots.iter().skip(1).position(|knot| x <= *knot);
-        next.unwrap_or(lookup.knots.len() - 1)
+        lookup.knots.iter().skip(1).position(|knot| x <= *knot).unwrap_or(lookup.knots.len() - 1)
     }
 }
 

@@ -100,8 +100,7 @@ pub fn whole(
     objective: &Objective<'_>,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Option<Design>> {
-    let search = Search::new(model, list, identifiable, objective, progress)?;
-    Ok(search.design((0..list.len()).collect(), 0))
+    Ok(Search::new(model, list, identifiable, objective, progress)?.design((0..list.len()).collect(), 0))
 }
 
 /// Returns a spread-out initial design; each `start` gives a different one.

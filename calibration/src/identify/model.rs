@@ -252,8 +252,7 @@ impl<'a> Model<'a> {
     }
 
     fn fixture_unknowns(&self) -> impl Iterator<Item = Unknown> {
-        let places = self.fixtures.iter().enumerate();
-        let places = places.flat_map(|(i, fixture)| {
+        let places = self.fixtures.iter().enumerate().flat_map(|(i, fixture)| {
             (0..fixture.geometry.unknowns()).map(move |coordinate| Unknown::Fixture(i, coordinate))
         });
         let zeros = self.observables.iter().enumerate().filter(|(_, reading)| !reading.zero_known);

@@ -170,8 +170,7 @@ fn poses(errors: &Model, model: &Model, data: &[Observation]) -> Result<(Columns
         ..errors.with(anew.into_iter().chain(errors.unknowns.iter().copied()).collect())
     };
     let measured = || Measurement::Pose(Box::new(Pose::IDENTITY));
-    let step = data.len().div_ceil(CONFIGURATIONS).max(1);
-    let rows = data.iter().step_by(step);
+    let rows = data.iter().step_by(data.len().div_ceil(CONFIGURATIONS).max(1));
     let rows =
         rows.map(|row| Observation { station: 0, measured: measured(), approach: None, ..row.clone() });
     let rows = elsewhere(&seen, &rows.collect::<Vec<_>>())?;
@@ -235,7 +234,6 @@ impl Solver<'_> {
             let is_certain = x > CERTAIN * noise * half.row(i).norm();
             if is_certain { x / basis.root.column(i).norm() } else { 0.0 }
         };
-        let own = (0..self.x.len()).filter(|i| scaled.contains(&basis.kept[*i]));
-        own.map(size).fold(0.0, f64::max)
+        (0..self.x.len()).filter(|i| scaled.contains(&basis.kept[*i])).map(size).fold(0.0, f64::max)
     }
 }

@@ -9,7 +9,7 @@
 use core::ops::ControlFlow;
 
 use super::bounds::Bounds;
-use super::joint_chain::{JointChain, scaled};
+use super::joint_chain::{JointChain, scaled, shift};
 use super::lane_chain::LaneChain;
 use super::pose_error::PoseError;
 use super::target_search::{
@@ -17,7 +17,7 @@ use super::target_search::{
 };
 use super::{ReachError, Target};
 use abbe_core::lanes::{Kernel, Lanes, Register};
-use abbe_core::{Error, Pose, Quantity, Scalar};
+use abbe_core::{Error, Quantity, Scalar};
 
 /// Largest number of lanes.
 const WIDEST: usize = 8;
@@ -112,10 +112,7 @@ impl<const ROWS: usize> Descents<'_, ROWS> {
     ) -> Option<Lane> {
         let target = waiting.next()?;
         let pose = match self.targets[target] {
-            Target::Point(point) | Target::Axis { point, .. } => {
-                let Pose([x, y, z, _]) = Pose::IDENTITY;
-                Pose([x, y, z, point])
-            }
+            Target::Point(point) | Target::Axis { point, .. } => shift(point),
             Target::Pose(pose) => pose,
         };
         let pose = scaled(&pose, self.problem.arm);

@@ -110,8 +110,7 @@ impl JointChain {
 
     /// Returns the pose of the tool point.
     pub(super) fn pose(&self, q: &[f64]) -> Pose {
-        let joints = self.joints.iter().zip(q);
-        let last = joints.fold(Pose::IDENTITY, |pose, (joint, value)| {
+        let last = self.joints.iter().zip(q).fold(Pose::IDENTITY, |pose, (joint, value)| {
             pose.then(&joint.before).then(&motion(joint.kind, *value))
         });
         last.then(&self.tool)

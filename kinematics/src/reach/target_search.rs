@@ -178,17 +178,15 @@ impl<'a> Problem<'a> {
 impl TargetSearch {
     /// Begins with start number `start`.
     pub(super) fn new(problem: &Problem<'_>, start: usize) -> (Self, Descent) {
-        let failure = Error::NotFinite { quantity: Quantity::Pose, index: 0 };
-        let stage = Stage::Within(start);
         let target_search = Self {
-            stage,
+            stage: Stage::Within(start),
             reachability: None,
             stopped_at: None,
             solutions: 0,
             least: None,
             nearest: None,
             refused: None,
-            failure,
+            failure: Error::NotFinite { quantity: Quantity::Pose, index: 0 },
         };
         (target_search, from(problem, start, true))
     }

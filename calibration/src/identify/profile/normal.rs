@@ -210,8 +210,7 @@ impl Normal {
 
     /// Returns the number of coefficients of joint j that the data determine, `Σ (1 − λ C_kk)`.
     pub(super) fn effective(&self, j: usize, variances: &[f64], ridges: &[f64]) -> f64 {
-        let used = self.columns(j).filter(|k| ridges[*k].is_finite());
-        used.map(|k| 1.0 - ridges[k] * variances[k]).sum()
+        self.columns(j).filter(|k| ridges[*k].is_finite()).map(|k| 1.0 - ridges[k] * variances[k]).sum()
     }
 
     /// Returns the sum of squared residuals of all folds under the solutions of the others, each
