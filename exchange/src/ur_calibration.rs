@@ -198,8 +198,5 @@ fn sign(joints: &[Joint], new: &[Pose], metres: f64) -> String {
             }
         }
     }
-    match most.1.is_empty() {
-        true => nominal_sign(),
-        false => most.1,
-    }
+    if most.1.is_empty() { nominal_sign() } else { most.1 }
 }

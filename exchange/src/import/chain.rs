@@ -271,20 +271,17 @@ impl AngleRounding {
             return;
         }
         let one = *count == 1;
-        notes.note(&match round {
-            true => {
-                let angles =
-                    if one { "angle was rounded to a multiple" } else { "angles were rounded to multiples" };
-                format!("{count} {angles} of 45°, by {farthest:.0e} rad at most")
-            }
-            false => {
-                let angles = if one { "angle is a multiple" } else { "angles are multiples" };
-                let them = if one { "it" } else { "them" };
-                format!(
-                    "{count} {angles} of 45° within {farthest:.0e} rad; `{ROUND_ANGLES}` rounds \
-                     {them}, which makes generated code shorter"
-                )
-            }
+        notes.note(&if *round {
+            let angles =
+                if one { "angle was rounded to a multiple" } else { "angles were rounded to multiples" };
+            format!("{count} {angles} of 45°, by {farthest:.0e} rad at most")
+        } else {
+            let angles = if one { "angle is a multiple" } else { "angles are multiples" };
+            let them = if one { "it" } else { "them" };
+            format!(
+                "{count} {angles} of 45° within {farthest:.0e} rad; `{ROUND_ANGLES}` rounds \
+                 {them}, which makes generated code shorter"
+            )
         });
     }
 }

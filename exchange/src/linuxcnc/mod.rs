@@ -111,12 +111,11 @@ pub fn write(machine: &mut RealMachine, nodes: usize, has_matrix: bool) -> Resul
     let mm = machine.spec.length.in_metres() * 1e3;
     let mut left_out: Vec<String> = turned.iter().map(|axis| axis.sentence(mm)).collect();
     left_out.extend(axes.errors_beyond_own_axis(machine, &directions));
-    let remaining = match has_matrix {
-        true => {
-            "The matrix corrects scales and squareness, and the files what it leaves along each axis: \
-                 straightness"
-        }
-        false => "LinuxCNC corrects each joint along itself by its own position: straightness, squareness",
+    let remaining = if has_matrix {
+        "The matrix corrects scales and squareness, and the files what it leaves along each axis: \
+             straightness"
+    } else {
+        "LinuxCNC corrects each joint along itself by its own position: straightness, squareness"
     };
     left_out.push(format!(
         "{remaining} and angular errors with varying lever arms remain. The error along each axis is \

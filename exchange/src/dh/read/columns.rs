@@ -44,8 +44,7 @@ impl Columns {
                 if quantity == Quantity::Name {
                     continue;
                 }
-                let message = format!("duplicate column `{name}`");
-                let mistake = Diagnostic::new(span.clone(), message)
+                let mistake = Diagnostic::new(span.clone(), format!("duplicate column `{name}`"))
                     .context(other.span.clone(), "first column of this name");
                 return document.fail(mistake.label("again").help("remove one of them"));
             }

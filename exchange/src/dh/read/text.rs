@@ -29,8 +29,7 @@ impl Text {
     pub(super) fn find(document: &Document) -> Option<Self> {
         let whole = document.text.clone();
         let is_heading = |cells: &[Span]| {
-            let cells = cells.iter().filter(|cell| Heading::parse(&whole[(*cell).clone()]).is_some());
-            cells.count() >= 2
+            cells.iter().filter(|cell| Heading::parse(&whole[(*cell).clone()]).is_some()).count() >= 2
         };
         let mut lines = lines(&whole);
         let mut around: Vec<Span> = Vec::new();

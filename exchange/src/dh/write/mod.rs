@@ -26,8 +26,7 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let mut table = nominal.clone();
     fit::fit(&mut table, machine);
     let text = text::write(&table, machine);
-    let rows = text::read(&text).map_err(unreadable)?;
-    let read = DhTable { rows, ..table.clone() };
+    let read = DhTable { rows: text::read(&text).map_err(unreadable)?, ..table.clone() };
     let word = table.convention.name();
     let mut left_out: Vec<String> = machine.held_at_mean().into_iter().collect();
     let ends = [("base", nominal.base), ("tool", nominal.tool)];

@@ -177,8 +177,7 @@ fn link(node: Node<'_, '_>, document: &Document) -> Option<Link> {
     if let Some((mass, _)) = mass
         && mass < 0.0
     {
-        let message = format!("the mass of `{name}` is negative");
-        let mistake = Diagnostic::new(start_of(node), message);
+        let mistake = Diagnostic::new(start_of(node), format!("the mass of `{name}` is negative"));
         document.mistake(mistake.help("a mass must be 0 or positive"));
     }
     let faults = faults(child(node, "inertial"), before, document);
