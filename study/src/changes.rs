@@ -57,8 +57,7 @@ impl Changes {
 
     /// Parses `NAME=VALUE` with a number in coherent units.
     pub fn parse_number(change: &str, spec: &Spec) -> Result<Self> {
-        let stated = vec![("set", change.to_owned())];
-        let mut changes = Self { stated, ..Self::default() };
+        let mut changes = Self { stated: vec![("set", change.to_owned())], ..Self::default() };
         let document = Document::new(SET, change);
         let Some((name, value)) = change.split_once('=') else {
             document.mistake(Diagnostic::new(0..change.len(), "expected NAME=VALUE"));

@@ -113,8 +113,7 @@ impl ToolPointDeviation {
         configurations: &[(&[f64], &[f64])],
     ) -> Option<f64> {
         let errors = CalibrationErrors::new(spec);
-        let prediction = Prediction::new(spec, manipulator, &errors, [0.0; 3])?;
-        rms(&prediction.deviations(some(configurations)))
+        rms(&Prediction::new(spec, manipulator, &errors, [0.0; 3])?.deviations(some(configurations)))
     }
 
     fn sentence(&self, spec: &Spec) -> String {

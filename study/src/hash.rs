@@ -7,8 +7,6 @@ use abbe_spec::Diagnostics;
 use abbe_spec::bounded::{Bounded, UnreadableFile};
 use sha2::{Digest, Sha256};
 
-use crate::mistake;
-
 /// Returns the SHA-256 of a text, in hexadecimal.
 pub fn text(text: &str) -> String {
     hex(&digest(text))
@@ -21,12 +19,9 @@ pub fn digest(text: &str) -> [u8; 32] {
 
 /// Returns the SHA-256 of a file, in hexadecimal as printed by `sha256sum`.
 pub fn file(file: &Path) -> Result<String, Diagnostics> {
-    let fail = |error: io::Error| {
-        let UnreadableFile { message, help } = UnreadableFile::from_error(&error, "give the path of a file");
-        mistake::with_help(file.display(), message, help)
-    };
-    let file = Bounded::open(file, u64::MAX).map_err(fail)?;
-    reader(file).map_err(fail)
+    let fail =
+        |error: io::Error| UnreadableFile::diagnostics(file.display(), &error, "give the path of a file");
+    reader(Bounded::open(file, u64::MAX).map_err(fail)?).map_err(fail)
 }
 
 /// Returns the SHA-256 of all remaining bytes, in hexadecimal.

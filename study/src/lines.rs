@@ -60,8 +60,7 @@ impl Lines {
             match window.bytes.get(start) {
                 Some(b'\r' | b'\n') => start += 1,
                 Some(b'#') => {
-                    let rest = window.bytes[start..].iter();
-                    start += rest.take_while(|byte| **byte != b'\n').count();
+                    start += window.bytes[start..].iter().take_while(|byte| **byte != b'\n').count();
                 }
                 _ => break,
             }

@@ -78,8 +78,7 @@ impl Machine {
             return Self::shipped(shipped).map(Some);
         }
         let Some((_, text)) = MECHANISMS.iter().find(|(known, _)| *known == name) else { return Ok(None) };
-        let spec = Spec::parse(&format!("{name}.toml"), text)?;
-        Ok(Some(Self::new(spec, name, None)))
+        Ok(Some(Self::new(Spec::parse(&format!("{name}.toml"), text)?, name, None)))
     }
 
     /// Returns a shipped manipulator.

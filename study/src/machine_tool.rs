@@ -70,10 +70,7 @@ fn read(code: &str) -> Result<[Vec<Axis>; 2]> {
         }
         sides[side].push(axis);
     }
-    match sides.iter().all(Vec::is_empty) {
-        true => refused("there are no axes".to_owned(), &form),
-        false => Ok(sides),
-    }
+    if sides.iter().all(Vec::is_empty) { refused("there are no axes".to_owned(), &form) } else { Ok(sides) }
 }
 
 /// Returns the template with these axes, by default three.
@@ -153,8 +150,7 @@ fn motion_errors(text: &mut String, axis: Axis) {
             (true, true, true) => format!("15e-6 * sin({variable})"),
             (true, true, false) => format!("5e-6 * cos({variable})"),
         };
-        let name = format!("E{letter}{}", axis.letter);
-        source(text, &name, "repeatable", axis, (key, &error), "");
+        source(text, &format!("E{letter}{}", axis.letter), "repeatable", axis, (key, &error), "");
     }
     let error = if is_rotary { "1 arcsec" } else { "0.5 um" };
     let _ = write!(
@@ -191,7 +187,6 @@ fn location_errors(text: &mut String, axis: Axis) {
     };
     for (i, (letter, key)) in ERRORS.into_iter().enumerate().filter(|(i, _)| i % 3 != direction) {
         let error = if i < 3 { "10 um" } else { "20e-6" };
-        let name = format!("E{letter}0{}", axis.letter);
-        source(text, &name, "tolerance", axis, (key, error), &at);
+        source(text, &format!("E{letter}0{}", axis.letter), "tolerance", axis, (key, error), &at);
     }
 }

@@ -151,8 +151,7 @@ impl Analyze {
         let description = manipulator.description();
         let workspace = &*study.region.workspace(manipulator, *seed).about(&machine.origin)?;
         notes.progress(0, workspace.len());
-        let tolerances = study.tolerances();
-        let options = BudgetOptions { tolerances };
+        let options = BudgetOptions { tolerances: study.tolerances() };
         let budget = BudgetSweep::new(manipulator, workspace, options)
             .map_err(|refused| machine.not_evaluated(workspace, &refused, description))?;
         let sweep = AnalysisSweep {

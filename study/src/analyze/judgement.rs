@@ -30,8 +30,7 @@ impl AnalysisSweep<'_> {
             let corrected = vec![Some(Residual::Share(0.0)); description.sources.len()];
             return Some((CompensationBasis::Identified, corrected, None));
         }
-        let published = self.study.compensated.as_ref()?;
-        Some((CompensationBasis::Published, Vec::new(), Some(published.residual)))
+        Some((CompensationBasis::Published, Vec::new(), Some(self.study.compensated.as_ref()?.residual)))
     }
 
     /// Evaluates the compensated machine over the workspace, if the study has a tolerance or states

@@ -173,8 +173,7 @@ impl AnalysisSweep<'_> {
             sites,
         };
         self.warn_of_first_order(first_order, notes);
-        let extrapolated = self.warn_of_calibration(notes);
-        let report = Report { extrapolated, ..report };
+        let report = Report { extrapolated: self.warn_of_calibration(notes), ..report };
         finite(&machine.origin, report)
     }
 
@@ -254,8 +253,7 @@ impl AnalysisSweep<'_> {
                 "move or shrink the workspace of the study, or widen the limits of the joints",
             ),
         };
-        let message = format!("{what} reachable: {reasons}");
-        Err(mistake::with_help(&self.machine.origin, message, help))
+        Err(mistake::with_help(&self.machine.origin, format!("{what} reachable: {reasons}"), help))
     }
 
     /// Fails if the study limits an orientation error that exists at no configuration.

@@ -60,8 +60,7 @@ pub fn unreachable_reason(unreachable: &Unreachable, spec: &Spec) -> String {
         }
         ReachError::Evaluation(error) => {
             let Configuration { q, s, .. } = &unreachable.requested;
-            let further = error.is_open().then(|| open_loops(spec, q, s)).flatten();
-            further.unwrap_or_else(|| error.to_string())
+            error.is_open().then(|| open_loops(spec, q, s)).flatten().unwrap_or_else(|| error.to_string())
         }
     }
 }
@@ -120,8 +119,7 @@ impl LoopCondition {
             smallest_at: label(home),
             dead_point: None,
         };
-        let step = workspace.len().div_ceil(CHECKED).max(1);
-        for index in (0..workspace.len()).step_by(step) {
+        for index in (0..workspace.len()).step_by(workspace.len().div_ceil(CHECKED).max(1)) {
             let Ok(at) = workspace.configuration(index) else { continue };
             let Some([largest, smallest]) = condition(&at) else { continue };
             found.configurations += 1;

@@ -203,8 +203,7 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 fn operations(routines: &Routines) -> Vec<FunctionOperations> {
-    let functions = routines.list.iter().filter(|routine| routine.function.is_some());
-    let counted = functions.map(|routine| {
+    let counted = routines.list.iter().filter(|routine| routine.function.is_some()).map(|routine| {
         let operations = routine.operations;
         let Operations { mul, add, neg, div, sincos, sqrt, other } = operations;
         FunctionOperations { function: routine.name, mul, add, neg, div, sincos, sqrt, other, operations }

@@ -61,8 +61,7 @@ impl Explore<'_> {
             Some(residuals) => measured(residuals, &machine.spec),
             None => configurations(&self.analysis)?,
         };
-        let interpreter = Interpreter::new(Arc::new(tunable.clone()));
-        let effects = report::effects(&interpreter);
+        let effects = report::effects(&Interpreter::new(Arc::new(tunable.clone())));
         let options = [self.analyze_options(), self.jacobian_options()];
         let report = Report::new(&self.analysis, options, &tunable, effects, configurations, code);
         finite(&machine.origin, Report { residuals: self.residuals.clone(), ..report })

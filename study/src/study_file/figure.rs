@@ -146,10 +146,7 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Figure> {
     let kind = section.required("kind").and_then(|item| item.choice(&KINDS))?;
     section.check_keys(keys::accepted(kind));
     let content = match kind {
-        Kind::Travel => {
-            let item = section.required("over")?;
-            Content::Travel(over(&item, spec)?)
-        }
+        Kind::Travel => Content::Travel(over(&section.required("over")?, spec)?),
         Kind::Surface => {
             let entries: [Item<'_>; 2] =
                 section.required("over")?.entries("two names: variables, parameters or inputs")?;
@@ -160,8 +157,7 @@ fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Figure> {
         Kind::Histogram => Content::Histogram,
         Kind::Pareto => Content::Pareto,
         Kind::Manipulator => {
-            let up = section.get("up").map(|item| item.choice(&UP_AXES));
-            Content::Manipulator(up.unwrap_or(Some(UP))?)
+            Content::Manipulator(section.get("up").map(|item| item.choice(&UP_AXES)).unwrap_or(Some(UP))?)
         }
     };
     let mut figure = Figure::new(content);

@@ -79,8 +79,7 @@ fn read(root: &Section<'_>, spec: &Spec) -> Option<Study> {
     head.name = "[study]".to_owned();
     head.check_keys(&[&keys::STUDY]);
     let title = head.required("title").and_then(|item| item.string());
-    let tolerance = head.get("tolerance").and_then(|item| tolerance::read(&item));
-    let tolerance = tolerance.unwrap_or_default();
+    let tolerance = head.get("tolerance").and_then(|item| tolerance::read(&item)).unwrap_or_default();
     let is_known = compensation.is_some() || compensated.is_some() || !spec.covariance.of.is_empty();
     if tolerance.machine == Some(JudgedMachine::Compensated)
         && !is_known

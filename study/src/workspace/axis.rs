@@ -191,10 +191,7 @@ pub(super) fn values(item: &Item<'_>, dimension: Dimension) -> Option<Vec<f64>> 
             let count = count(&counted, VALUES)?;
             Some(sampling::grid([from?, to?], count))
         }
-        (None, Some(item)) => {
-            let step = constant(&item, dimension, "a step")?;
-            stepped([from?, to?], step, &item)
-        }
+        (None, Some(item)) => stepped([from?, to?], constant(&item, dimension, "a step")?, &item),
         _ => {
             let message = format!("{} needs either `count` or `step`", section.name);
             item.document.refuse(section.span.clone(), message, "add `count`, such as `count = 5`")

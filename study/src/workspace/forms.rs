@@ -97,8 +97,7 @@ fn grid(item: &Item<'_>, spec: &Spec) -> Option<Region> {
 fn presented(section: &Section<'_>, spec: &Spec) -> Option<Presentation> {
     section.check_keys(&[&keys::PRESENTED]);
     let point = section.required("point").and_then(|item| point(&item));
-    let tool_points = section.get("tool_points");
-    let tool_points = tool_points.map(|item| Candidates::parameters(spec).axes(&item));
+    let tool_points = section.get("tool_points").map(|item| Candidates::parameters(spec).axes(&item));
     let variables = Candidates::variables(spec).unlimited();
     let approaches = section.get("approaches").map(|item| (variables.axes(&item), item.span()));
     let (approaches, span) = approaches.unwrap_or_default();
@@ -167,8 +166,7 @@ fn samples(section: &Section<'_>, spec: &Spec, random: bool) -> Option<Region> {
         Some(item) => Some(whole(&item, [0, LARGEST])? as u64),
         None => random.then_some(0),
     };
-    let samples = section.required("samples")?;
-    let count = count(&samples, LARGEST)?;
+    let count = count(&section.required("samples")?, LARGEST)?;
     Some(Region { sampled_inputs, ..Region::new(Form::Samples { moved, count, seed }) })
 }
 

@@ -265,8 +265,7 @@ fn describe_input(axis: &Axis, spec: &Spec) -> String {
     let show = |value: &f64| number::quantity(*value, unit);
     match &axis.values[..] {
         values @ ([_] | [_, _] | [_, _, _]) => {
-            let values = values.iter().map(show).collect::<Vec<_>>();
-            format!("{name} = {}", values.join(" and "))
+            format!("{name} = {}", values.iter().map(show).collect::<Vec<_>>().join(" and "))
         }
         values => {
             let [least, largest] = range_of(values.iter().copied());

@@ -51,8 +51,7 @@ impl Region {
         let limits = |i: &usize| Span { symbol: Symbol::Variable(*i), range: spec.variables[*i].limits };
         let over = |symbol: fn(usize) -> Symbol| move |axis: &Axis| hull(symbol(axis.index), &axis.values);
         let reached = |solved: &[usize]| {
-            let reached = self.reached(manipulator, solved);
-            reached.unwrap_or_else(|| solved.iter().map(limits).collect())
+            self.reached(manipulator, solved).unwrap_or_else(|| solved.iter().map(limits).collect())
         };
         let mut spans: Vec<Span> = match &self.form {
             Form::Presented(Presentation { tool_points, approaches, solved, .. }) => {

@@ -63,20 +63,15 @@ impl Stick {
                 None => origins.push(FrameOrigin { label, origin, axes: [x, y, z] }),
             }
         }
-        let links = match spec.is_serial() {
-            true => vec![origins.iter().map(|place| place.origin).collect()],
-            false => {
-                let origin = |frame: Option<usize>| pose(frame).position();
-                let links = (0..frames.len()).map(|i| vec![origin(description.parent(i)), origin(Some(i))]);
-                let legs = spec.loops.iter().filter(|closed| matches!(closed.closure, Closure::Distance(_)));
-                let legs = legs.map(|leg| leg.frames.map(origin).to_vec());
-                let tool = vec![origin(description.tool_frame()), tool.position()];
-                links
-                    .chain(legs)
-                    .chain([tool])
-                    .filter(|link| distance(link[0], link[1]) > 1e-6 * size)
-                    .collect()
-            }
+        let links = if spec.is_serial() {
+            vec![origins.iter().map(|place| place.origin).collect()]
+        } else {
+            let origin = |frame: Option<usize>| pose(frame).position();
+            let links = (0..frames.len()).map(|i| vec![origin(description.parent(i)), origin(Some(i))]);
+            let legs = spec.loops.iter().filter(|closed| matches!(closed.closure, Closure::Distance(_)));
+            let legs = legs.map(|leg| leg.frames.map(origin).to_vec());
+            let tool = vec![origin(description.tool_frame()), tool.position()];
+            links.chain(legs).chain([tool]).filter(|link| distance(link[0], link[1]) > 1e-6 * size).collect()
         };
         Ok(Self { origins, links, size })
     }

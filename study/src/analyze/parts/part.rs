@@ -121,8 +121,7 @@ impl Part {
         }
         let json = &content[BEGINNING.len() + end + 1..];
         let part: Result<Self, String> = serde_json::from_str(json).map_err(|error| error.to_string());
-        let checked = part.and_then(|part| part.request.check_draws().map(|()| part));
-        checked.map_err(|message| {
+        part.and_then(|part| part.request.check_draws().map(|()| part)).map_err(|message| {
             wrong(
                 &format!("this part has content that this version of abbe does not write: {message}"),
                 "create it again; use one version of abbe for all parts and for the merge",
@@ -133,9 +132,7 @@ impl Part {
     /// Reads a part file.
     pub fn read(path: &Path) -> Result<Self> {
         let bytes = Bounded::read_all(path, LONGEST).map_err(|error| {
-            let UnreadableFile { message, help } =
-                UnreadableFile::from_error(&error, "give the path of a part");
-            mistake::with_help(path.display(), message, help)
+            UnreadableFile::diagnostics(path.display(), &error, "give the path of a part")
         })?;
         Self::from_bytes(&path.display().to_string(), &bytes)
     }

@@ -155,8 +155,7 @@ impl AnalysisRequest {
         study.limit(&self.tolerances, &machine.spec)?;
         let mut job = Analyze::new(machine, study);
         for change in &self.changes {
-            let changes = change.read(&job.machine().spec)?;
-            job.change(&changes, notes);
+            job.change(&change.read(&job.machine().spec)?, notes);
         }
         job.monte_carlo = self.monte_carlo;
         job.seed = self.seed;
@@ -186,14 +185,12 @@ impl AnalysisRequest {
 pub(super) fn contents(job: &Analyze) -> Result<Contents> {
     let (mut contents, mut left) = (Contents::new(), LARGEST);
     for file in job.machine().spec.beside.iter().chain(&job.study().files) {
-        let wrong = |message: String, help: &str| mistake::with_help(file.display(), message, help);
         let bytes = Bounded::read_all(file, left).map_err(|error| {
-            let UnreadableFile { message, help } =
-                UnreadableFile::from_error(&error, "give the path of a file");
-            wrong(message, &help)
+            UnreadableFile::diagnostics(file.display(), &error, "give the path of a file")
         })?;
-        let text = String::from_utf8(bytes)
-            .map_err(|_| wrong("this file is not UTF-8 text".to_owned(), "save it as UTF-8"))?;
+        let text = String::from_utf8(bytes).map_err(|_| {
+            mistake::with_help(file.display(), "this file is not UTF-8 text", "save it as UTF-8")
+        })?;
         left = left.saturating_sub(text.len() as u64);
         contents.insert(file.to_string_lossy().into_owned(), text);
     }

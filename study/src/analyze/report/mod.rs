@@ -232,8 +232,7 @@ impl Report {
     /// Returns the inputs in words: `payload within 0 kg … 5 kg (0 kg at home)`, or `payload = 0
     /// kg` for one that does not vary.
     pub fn inputs(&self) -> Vec<String> {
-        let inputs = self.spec.inputs.iter().enumerate();
-        let inputs = inputs.map(|(i, input)| {
+        let inputs = self.spec.inputs.iter().enumerate().map(|(i, input)| {
             let [home, lower, upper] = [input.value, input.range[0], input.range[1]]
                 .map(|value| number::quantity(value, &input.unit));
             match self.moving_inputs.contains(&i) {

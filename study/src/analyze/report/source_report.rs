@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use abbe::analysis::{Budget, Configuration, Contribution, Figures, SourceErrors, Workspace};
+use abbe::analysis::{Budget, Combined, Configuration, Contribution, Figures, SourceErrors, Workspace};
 use abbe::{Class, Component};
 use abbe_spec::{ChainNumber, DhNumber, Source, Spec, Uncertain, expr::Expression};
 use serde::{Serialize, Serializer};
@@ -186,19 +186,10 @@ impl ErrorSites {
                 [variables.chain(inputs).collect(), parameters.collect()].map(Named);
             ErrorSite { configuration, variables, parameters }
         };
-        let (all, turned) = (&budget.combined, &budget.orientation.combined);
-        let extremes = [all, turned].into_iter().flat_map(|combined| {
-            [
-                combined.repeatable_radius,
-                combined.random_radius,
-                combined.radius,
-                combined.standard_radius,
-                combined.worst_case_radius,
-            ]
-        });
-        let indices = budget.sources.iter().chain(&budget.orientation.sources).map(|errors| errors.worst);
-        let indices = indices.chain(extremes.map(|extreme| extreme.configuration));
-        let indices = indices.chain([all.ellipsoid.configuration]).flatten();
+        let alone = budget.sources.iter().chain(&budget.orientation.sources);
+        let together =
+            [&budget.combined, &budget.orientation.combined].into_iter().flat_map(Combined::indices);
+        let indices = alone.filter_map(|errors| errors.worst).chain(together);
         let indices = indices.chain(budget.least_likely.iter().flatten().copied()).chain(others);
         let site = |index: usize| Some((index, named(workspace.configuration(index).ok()?)));
         Self { home: named(workspace.home().clone()), by_index: indices.filter_map(site).collect() }
