@@ -262,8 +262,7 @@ impl Compensate {
     /// Returns the station name of a row; `None` if the data have no station column.
     pub fn label(&self, row: &Row) -> Option<&str> {
         let station = row.corrected.station as usize;
-        let label = self.map.stations.column.as_ref();
-        label.map(|_| self.data.stations.get(station).map_or("", |name| name))
+        self.map.stations.column.as_ref().map(|_| self.data.stations.get(station).map_or("", |name| name))
     }
 }
 

@@ -156,8 +156,7 @@ fn correct_row(task: &Task<'_>, observation: Observation) -> Result<Row, Unusabl
     let Corrected { found, start, reason, largest_turn } = correct_observation(task, &observation)
         .map_err(|reason| Unusable { line: observation.line, reason })?;
     let Compensated { q, before, after, .. } = found;
-    let point = task.manipulator.pose(&start, &task.s);
-    let point = point.map_err(|error| Unusable {
+    let point = task.manipulator.pose(&start, &task.s).map_err(|error| Unusable {
         line: observation.line,
         reason: evaluation_message(task.description, &error),
     })?;

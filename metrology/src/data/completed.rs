@@ -51,8 +51,7 @@ impl Data {
         let s = nominal_parameters(machine.description());
         let error = |row: &Observation| {
             let nominal = machine.pose(&row.q, &s).err();
-            let error = nominal.or_else(|| machine.real_pose(&row.q, &s, &row.u).err());
-            error.filter(abbe::Error::is_open)
+            nominal.or_else(|| machine.real_pose(&row.q, &s, &row.u).err()).filter(abbe::Error::is_open)
         };
         let open: Vec<Option<abbe::Error>> = match machine.spec().loops.is_empty() {
             true => Vec::new(),
@@ -73,15 +72,13 @@ impl Data {
                 None => data.observations.push(row),
             }
         }
-        match data.observations.is_empty() {
-            true => {
-                let why = data.unusable.iter().map(|row| format!("{}: {}", data.place(row.line), row.reason));
-                let message =
-                    format!("the loops close at none of the rows: {}", why.take(1).collect::<String>());
-                let help = "check the units and signs of the joints in the map, and the lengths of the loops";
-                Err(mistake::with_help(&data.file, message, help))
-            }
-            false => Ok(Cow::Owned(data)),
+        if data.observations.is_empty() {
+            let why = data.unusable.iter().map(|row| format!("{}: {}", data.place(row.line), row.reason));
+            let message = format!("the loops close at none of the rows: {}", why.take(1).collect::<String>());
+            let help = "check the units and signs of the joints in the map, and the lengths of the loops";
+            Err(mistake::with_help(&data.file, message, help))
+        } else {
+            Ok(Cow::Owned(data))
         }
     }
 }

@@ -63,8 +63,7 @@ fn levels(values: &[f64], resolution: Option<f64>) -> Vec<u32> {
     let mut order: Vec<u32> = (0..values.len() as u32).collect();
     let value = |i: u32| values[i as usize];
     order.sort_unstable_by(|a, b| value(*a).total_cmp(&value(*b)));
-    let ends = order.first().zip(order.last());
-    let span = ends.map_or(0.0, |(first, last)| value(*last) - value(*first));
+    let span = order.first().zip(order.last()).map_or(0.0, |(first, last)| value(*last) - value(*first));
     let resolution = resolution.unwrap_or(SHARE * span);
     let (mut level, mut begins) = (0, f64::NEG_INFINITY);
     let mut levels = vec![0; values.len()];

@@ -77,8 +77,7 @@ impl File {
             let line = fields.position().map_or(0, |position| lines.record_line(position.byte()));
             if row == MOST_ROWS {
                 let message = format!("this file has more than the maximum of {MOST_ROWS} rows");
-                let help = "split it, or keep every second row";
-                return Err(mistake::with_help(&file, message, help));
+                return Err(mistake::with_help(&file, message, "split it, or keep every second row"));
             }
             Ok(Record::written(line, Arc::clone(&heading), dialect, fields))
         })

@@ -24,8 +24,7 @@ impl Map {
             );
             let help =
                 not_a_heading(header, &wanted).unwrap_or_else(|| format!("the columns are: {there_are}"));
-            let span = first.span.clone();
-            let mistake = Diagnostic { span, ..Diagnostic::whole_file(message) }
+            let mistake = Diagnostic { span: first.span.clone(), ..Diagnostic::whole_file(message) }
                 .label("first missing column")
                 .help(help);
             return Diagnostics { path: self.path.clone(), text: self.text.clone(), list: vec![mistake] };
@@ -44,8 +43,7 @@ impl Map {
                 None => format!("the columns are: {there_are}"),
             };
             let message = format!("there is no column `{}` in {}", column.name.escape_debug(), file);
-            let span = column.span.clone();
-            Diagnostic { span, ..Diagnostic::whole_file(message) }
+            Diagnostic { span: column.span.clone(), ..Diagnostic::whole_file(message) }
                 .label("the map names this column")
                 .help(help)
         });

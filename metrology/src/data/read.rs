@@ -39,10 +39,7 @@ impl Map {
 
 /// Merges diagnostics with equal messages into the first one, which lists the other lines.
 fn merge_duplicates(document: &Document) {
-    let line = |mistake: &Diagnostic| {
-        let start = mistake.span.as_ref().map_or(0, |span| span.start.min(document.text.len()));
-        document.text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count() + 1
-    };
+    let line = |mistake: &Diagnostic| document.line(mistake.span.as_ref().map_or(0, |span| span.start));
     let mut kept: Vec<(Diagnostic, Vec<String>)> = Vec::new();
     for mistake in document.found.take() {
         let same =
@@ -102,8 +99,7 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
     };
     let target_frame = TargetFrame::read(&head, spec)?;
     let layout = layout(root, stated, setup.flatten(), &target_frame);
-    let layout = found_places(root, layout);
-    let layout = distances(root, layout);
+    let layout = distances(root, found_places(root, layout));
     let length = match &layout {
         Some(Layout::Instruments(all)) if stated.flatten().is_none() => Some(Some(all.uncertainty())),
         _ => stated,
@@ -175,8 +171,7 @@ fn layout(
         keys::FORMS.contain(&item.key) && !["target", "instrument"].contains(&item.key.as_str())
     };
     if root.get("instrument").is_some() && !root.items().any(|item| alone(&item)) {
-        let all = instruments(root, stated, setup, frame)?;
-        return Some(Layout::Instruments(Box::new(all)));
+        return Some(Layout::Instruments(Box::new(instruments(root, stated, setup, frame)?)));
     }
     let mut forms = root.items().filter(|item| keys::FORMS.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
@@ -248,8 +243,7 @@ fn targets(item: &Item<'_>, frame: &TargetFrame) -> Option<Layout> {
         section.optional_text("name");
         let columns = columns(&section, "columns");
         let factor = unit(&section, Dimension::LENGTH);
-        let position = section.required("position")?;
-        let position = target_position(&position, frame)?;
+        let position = target_position(&section.required("position")?, frame)?;
         targets.push(Target { columns: columns?, factor: factor?, position });
     }
     let positions: Vec<[f64; 3]> = targets.iter().filter_map(|target| target.position).collect();
@@ -263,8 +257,7 @@ fn targets(item: &Item<'_>, frame: &TargetFrame) -> Option<Layout> {
         }
         Some(_) => return Some(Layout::Targets(targets)),
     };
-    let help = "move one of them off the line, or measure a single one as `[point]`";
-    item.refuse_key(mistake, help)
+    item.refuse_key(mistake, "move one of them off the line, or measure a single one as `[point]`")
 }
 
 /// Reads `[accept]`: limits for rows that were not used in a fit.

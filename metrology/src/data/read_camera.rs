@@ -1,7 +1,7 @@
 //! Reader of an instrument of the kind `camera`.
 
 use abbe::identify::{CAMERA, Camera, INTRINSICS, Observable, register};
-use abbe_spec::document::{Item, Section};
+use abbe_spec::document::Section;
 use abbe_spec::expr::Dimension;
 
 use super::choices::{INTRINSIC_CHOICES, MOUNTS};
@@ -29,8 +29,7 @@ pub(super) fn camera(
     let is_known = section.get("intrinsics").map_or(Some(true), |item| item.choice(&INTRINSIC_CHOICES));
     let corners = corners(section);
     let prefixes = prefixes(section);
-    let uncertainty = section.required("uncertainty")?;
-    let uncertainty = deviation(&uncertainty, Dimension::NONE)?;
+    let uncertainty = deviation(&section.required("uncertainty")?, Dimension::NONE)?;
     let (corners, prefixes, [fx, fy], [cx, cy]) = (corners?, prefixes?, focal?, center?);
     let mut intrinsics = [0.0; INTRINSICS];
     intrinsics[..4].copy_from_slice(&[fx, fy, cx, cy]);
@@ -110,8 +109,7 @@ fn distortion(section: &Section<'_>) -> Option<[f64; INTRINSICS - 4]> {
 /// Reads the beginnings of the headings of `u` and `v`, which must differ.
 fn prefixes(section: &Section<'_>) -> Option<[Column; 2]> {
     let item = section.required("pixels")?;
-    let two: [Item<'_>; 2] = item.entries("the beginnings of two headings")?;
-    let [u, v] = two.map(|item| column(&item));
+    let [u, v] = item.entries("the beginnings of two headings")?.map(|item| column(&item));
     let (u, v) = (u?, v?);
     if u.name != v.name {
         return Some([u, v]);

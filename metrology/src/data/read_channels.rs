@@ -101,8 +101,7 @@ fn read_from_rows(section: &Section<'_>, spec: &Spec, input: &Input) -> Option<F
         _ => {
             let help =
                 "write `{ approach = \"JOINT\" }` or `{ gravity_moment = \"JOINT\", frame = \"FRAME\" }`";
-            let message = format!("`{}` is not defined by a valid rule", input.name);
-            section.refuse(message, help)
+            section.refuse(format!("`{}` is not defined by a valid rule", input.name), help)
         }
     }
 }
@@ -119,8 +118,7 @@ fn channel(item: &Item<'_>, dimension: Dimension) -> Option<Channel> {
         Some(item) => match item.quantity(Dimension::NONE)? {
             sign if sign.abs() == 1.0 => sign,
             _ => {
-                let help = "include any other factor in `unit`";
-                return item.refuse("a sign must be 1 or -1", help);
+                return item.refuse("a sign must be 1 or -1", "include any other factor in `unit`");
             }
         },
         None => 1.0,

@@ -58,8 +58,7 @@ fn targets(item: &Item<'_>, frame: &TargetFrame) -> Option<Vec<Named>> {
         let section = item.named("this [[target]]")?;
         section.check_names(&["name", "position"]);
         let name = section.required("name").and_then(|item| item.string());
-        let item = section.required("position")?;
-        let position = target_position(&item, frame)?;
+        let position = target_position(&section.required("position")?, frame)?;
         Some(Named { name: name?, position })
     };
     items.iter().map(one).collect()
@@ -166,8 +165,7 @@ fn targets_of(section: &Section<'_>, kind: &InstrumentKind, targets: &[Named]) -
     let find = |item: &Item<'_>| read_name(item, targets.iter().map(|target| target.name.as_str()), "target");
     if kind.has("targets") {
         let item = section.required("targets")?;
-        let both: [Item<'_>; 2] = item.entries("the names of two targets")?;
-        let [first, second] = both.map(|item| find(&item));
+        let [first, second] = item.entries("the names of two targets")?.map(|item| find(&item));
         return Some([first?, second?]);
     }
     match section.get("target") {
@@ -217,8 +215,7 @@ fn own_vector(
     if !kind.has(key) {
         return Some([0.0; 3]);
     }
-    let item = section.required(key)?;
-    vector(&item, dimension)
+    vector(&section.required(key)?, dimension)
 }
 
 /// Reads the position of a target in the frame of the tool; none if it is unknown.

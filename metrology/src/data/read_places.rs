@@ -37,8 +37,7 @@ pub(super) fn stations(root: &Section<'_>, head: &Section<'_>) -> Option<Station
     }
     if column.is_none() && stated.len() > 1 {
         let help = "name the column of the station in [data]: `station = \"…\"`";
-        let message = "several stations, but no column with the station of each row";
-        return list.refuse_key(message, help);
+        return list.refuse_key("several stations, but no column with the station of each row", help);
     }
     Some(Stations { column, stated })
 }
@@ -228,11 +227,8 @@ fn place(section: &Section<'_>) -> Option<Pose> {
 fn covariance(section: &Section<'_>, size: usize) -> Option<()> {
     let Some(item) = section.get("covariance") else { return Some(()) };
     let rows = item.array("rows of numbers")?;
-    let mut right = rows.len() == size;
-    for row in &rows {
-        right &= row.array("numbers")?.len() == size;
-    }
-    if right {
+    let lengths = rows.iter().map(|row| Some(row.array("numbers")?.len())).collect::<Option<Vec<_>>>()?;
+    if lengths == vec![size; size] {
         return Some(());
     }
     let message = format!("this covariance must have {size} rows of {size} numbers");
@@ -264,8 +260,7 @@ fn distance(section: &Section<'_>, all: &Instruments) -> Option<KnownDistance> {
     let value = section.required("value");
     let uncertainty = section.required("uncertainty");
     let between = between?;
-    let both: [Item<'_>; 2] = between.entries("the names of two instruments")?;
-    let [a, b] = both.map(|item| point(&item, all));
+    let [a, b] = between.entries("the names of two instruments")?.map(|item| point(&item, all));
     let (a, b) = (a?, b?);
     if a == b {
         let message = "a distance is between two instruments, and these are one";

@@ -2,7 +2,7 @@
 //!
 //! Tables of numbers without a map.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use abbe_study::{Result, hash, mistake};
@@ -131,15 +131,9 @@ impl Source<'_> {
     }
 }
 
-impl<'a> From<&'a Path> for Source<'a> {
-    fn from(file: &'a Path) -> Self {
-        Self::File(file)
-    }
-}
-
-impl<'a> From<&'a PathBuf> for Source<'a> {
-    fn from(file: &'a PathBuf) -> Self {
-        Self::File(file)
+impl<'a, P: AsRef<Path> + ?Sized> From<&'a P> for Source<'a> {
+    fn from(file: &'a P) -> Self {
+        Self::File(file.as_ref())
     }
 }
 

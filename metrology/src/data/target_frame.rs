@@ -21,8 +21,7 @@ impl TargetFrame {
     /// Reads `target_frame` of `[data]`.
     pub(super) fn read(head: &Section<'_>, spec: &Spec) -> Option<Self> {
         let Some(item) = head.get("target_frame") else { return Some(Self::default()) };
-        let is_flange = item.choice(&TARGET_FRAMES)?;
-        Some(Self { is_stated: true, tool: is_flange.then(|| tool(spec)) })
+        Some(Self { is_stated: true, tool: item.choice(&TARGET_FRAMES)?.then(|| tool(spec)) })
     }
 
     /// Converts a position to the frame of the tool.

@@ -149,8 +149,7 @@ impl AsJointErrors {
     /// Returns the indices among the kept unknowns of the other significant errors of the machine.
     fn significant_others(&self, explanations: &Explanations) -> impl Iterator<Item = usize> {
         let is_error = |index: usize| matches!(explanations.kept(index), Unknown::Error(..));
-        let others = self.others.iter();
-        others.filter_map(move |(index, value, deviation)| {
+        self.others.iter().filter_map(move |(index, value, deviation)| {
             (is_error(*index) && value.abs() > SIGNIFICANT * deviation).then_some(*index)
         })
     }

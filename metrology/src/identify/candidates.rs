@@ -173,8 +173,7 @@ fn turns(spec: &Spec) -> Vec<[ErrorSite; 3]> {
 }
 
 fn elastic(spec: &Spec) -> Vec<Vec<Term>> {
-    let sites = turns(spec).into_iter().flatten();
-    sites.map(|site| vec![Term { site, basis: Basis::Moment }]).collect()
+    turns(spec).into_iter().flatten().map(|site| vec![Term { site, basis: Basis::Moment }]).collect()
 }
 
 /// Returns the off-diagonal entries of the compliances of base and frames: each pair alone, and all

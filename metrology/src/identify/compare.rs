@@ -57,12 +57,11 @@ pub(super) fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup) -> R
         length(before),
         length(after)
     );
-    let help = match setup.pose {
-        true => {
-            "check the orientation convention and `angle_uncertainty`: positions and orientations \
-             contradict each other"
-        }
-        false => "check `uncertainty`, and check that these are measurements of this machine",
+    let help = if setup.pose {
+        "check the orientation convention and `angle_uncertainty`: positions and orientations \
+         contradict each other"
+    } else {
+        "check `uncertainty`, and check that these are measurements of this machine"
     };
     Err(mistake::with_help(&data.file, message, help))
 }

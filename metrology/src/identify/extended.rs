@@ -49,8 +49,7 @@ fn gravity(spec: &Spec) -> f64 {
 /// Converts a number from a product of units to the coherent units of a spec.
 fn in_units(spec: &Spec, number: f64, units: &[(&str, i32)]) -> f64 {
     let unit = units.iter().fold(Unit::NONE, |product, (name, power)| {
-        let product_with = Unit::named(name).and_then(|unit| product.times(unit, *power));
-        product_with.unwrap_or(product)
+        Unit::named(name).and_then(|unit| product.times(unit, *power)).unwrap_or(product)
     });
     unit.convert(number, spec.length)
 }

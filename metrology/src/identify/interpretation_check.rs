@@ -48,8 +48,7 @@ pub(crate) fn check_interpretation(setup: &Setup, map: &Map, data: &Data) -> Res
     // Joints that follow from poses have no columns to be read otherwise.
     let has_joints = map.command_pose.is_none();
     let search = || has_joints.then(|| better_interpretation(setup, map, &rows, here)).flatten();
-    let better = better.or_else(search);
-    let Some((there, questions)) = better else { return Ok(rms) };
+    let Some((there, questions)) = better.or_else(search) else { return Ok(rms) };
     let unit = setup.description.length;
     let there = number::length(there.rms, unit);
     let message = match rms {

@@ -200,8 +200,7 @@ struct Modelled<'a> {
 impl Modelled<'_> {
     /// Returns the position errors of rows that are left out, with the profiles.
     fn cross_validated(&self) -> &Distances {
-        let profiles = self.profiles.as_ref().map(FoundProfiles::cross_validated);
-        profiles.unwrap_or(&self.solved.cross_validated)
+        self.profiles.as_ref().map(FoundProfiles::cross_validated).unwrap_or(&self.solved.cross_validated)
     }
 }
 

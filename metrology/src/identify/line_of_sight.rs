@@ -162,13 +162,10 @@ impl<'a> LineOfSight<'a> {
 
 /// Returns the error that the instruments can be read at no configuration.
 pub(crate) fn nothing_readable(map: &Map) -> Diagnostics {
-    let help = match map.instruments().is_some_and(|all| all.camera.is_some()) {
-        true => {
-            "check `[[station]]`, `[placement]` and `mount`: the camera must see the whole board, not too obliquely"
-        }
-        false => {
-            "check that the tool can reach `at` (in F_0) with readings within `range`, and targets `[sight]`"
-        }
+    let help = if map.instruments().is_some_and(|all| all.camera.is_some()) {
+        "check `[[station]]`, `[placement]` and `mount`: the camera must see the whole board, not too obliquely"
+    } else {
+        "check that the tool can reach `at` (in F_0) with readings within `range`, and targets `[sight]`"
     };
     let message = "no configuration was found within the joint limits at which these instruments can be read";
     mistake::with_help(map.path(), message, help)

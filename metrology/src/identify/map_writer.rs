@@ -56,8 +56,7 @@ fn set_uncertainties(root: &Section<'_>, edits: &mut Edits<'_>, map: &Map, estim
         set(&head, "angle_uncertainty", "rotations");
     }
     if let (Some(all), Some(items)) = (map.instruments(), root.get("instrument")) {
-        let items = items.list();
-        items.iter().zip(&all.list).for_each(|(item, one)| set(item, "uncertainty", &one.name));
+        items.list().iter().zip(&all.list).for_each(|(item, one)| set(item, "uncertainty", &one.name));
     }
 }
 

@@ -104,8 +104,7 @@ impl Setup<'_> {
     /// Returns the unknowns of fixtures and zeros that were not identified before.
     fn fixtures_to_find(&self, map: &Map) -> Vec<Unknown> {
         let Some(all) = map.instruments() else { return Vec::new() };
-        let open = (0..all.list.len()).filter(|i| !all.found.contains(i));
-        let unknowns = open.flat_map(|i| {
+        let unknowns = (0..all.list.len()).filter(|i| !all.found.contains(i)).flat_map(|i| {
             let place = all.fixture_of(i).into_iter().flat_map(|fixture| {
                 let count = self.real.fixtures[fixture].geometry.unknowns();
                 (0..count).map(move |coordinate| Unknown::Fixture(fixture, coordinate))

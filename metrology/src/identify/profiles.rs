@@ -127,8 +127,7 @@ fn find(
             table: ProfileTable::new(profile, &values, deviation, spec.length)?,
         })
     });
-    let joints: Vec<JointProfile> = joints.collect();
-    Ok(Ok(FoundProfiles { joints, comparison, fitted }))
+    Ok(Ok(FoundProfiles { joints: joints.collect(), comparison, fitted }))
 }
 
 /// Returns the joints that move enough for a profile, and a note for each other one that moves.
@@ -194,8 +193,7 @@ impl FoundProfiles {
     pub(super) fn added_to(&self, spec: &Spec) -> Spec {
         let mut profiled = spec.clone();
         for one in &self.joints {
-            let name = table_name(spec, &one.joint);
-            let table = one.table.table(name, spec.length);
+            let table = one.table.table(table_name(spec, &one.joint), spec.length);
             let dimension = table.dimensions[0];
             let joint = Expression::from_symbol(Symbol::Variable(one.variable), dimension);
             let error = joint.looked_up(profiled.tables.len() as u16, &table);

@@ -54,8 +54,7 @@ fn pairs(setup: &Setup, data: &Data) -> Result<Vec<Vec<(f64, f64)>>, Failure> {
     let mut pairs = vec![Vec::new(); setup.ideal.observables.len()];
     for row in &data.observations {
         let Measurement::Readings(readings) = &row.measured else { continue };
-        let values = at.values(row)?;
-        for ((pairs, reading), value) in pairs.iter_mut().zip(readings).zip(values) {
+        for ((pairs, reading), value) in pairs.iter_mut().zip(readings).zip(at.values(row)?) {
             pairs.extend(reading.map(|reading| (reading, value)));
         }
     }

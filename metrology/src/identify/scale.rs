@@ -29,8 +29,7 @@ fn scale_uncertainty(ideal: &Model, rows: &[Observation], moved: &[usize]) -> Re
     let mut all: Vec<Vec<f64>> = vec![Vec::new(); ideal.observables.len()];
     for row in rows {
         let Measurement::Readings(read) = &row.measured else { continue };
-        let values = at.values(row)?;
-        for (i, value) in values.into_iter().enumerate().filter(|(i, _)| read[*i].is_some()) {
+        for (i, value) in at.values(row)?.into_iter().enumerate().filter(|(i, _)| read[*i].is_some()) {
             all[i].push(value - ideal.observables[i].zero);
         }
     }

@@ -162,13 +162,12 @@ impl FoundModel {
         let (nominal, spec) = (spec, &with_inputs(spec, &self.derived));
         // The spec refuses a negative compliance; the sign goes into the magnitude.
         let is_reversed = term.basis == Basis::Moment && *magnitude < 0.0;
-        let (size, keys, remark) = match is_reversed {
-            true => {
-                let fitted = magnitude_table(*magnitude, *standard_deviation);
-                let remark = ". The value is negative: elasticity alone does not explain it";
-                (1.0, repeatable().key("magnitude", fitted), remark)
-            }
-            false => (*magnitude, repeatable(), ""),
+        let (size, keys, remark) = if is_reversed {
+            let fitted = magnitude_table(*magnitude, *standard_deviation);
+            let remark = ". The value is negative: elasticity alone does not explain it";
+            (1.0, repeatable().key("magnitude", fitted), remark)
+        } else {
+            (*magnitude, repeatable(), "")
         };
         let deviation = match term.basis {
             Basis::One => format!("{} {}", digits(*standard_deviation, 2), term.site.unit(spec)),

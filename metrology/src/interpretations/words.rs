@@ -192,15 +192,14 @@ fn questions_on_format(found: PoseFormat, stated: PoseFormat) -> Vec<String> {
         }
         (PoseFormat::Euler { axes, fixed, .. }, stated) if !is_euler(stated, axes, fixed) => {
             let order: String = axes.iter().map(|axis| AXES[*axis]).collect();
-            all.push(match fixed {
-                false => format!("are these Euler angles in the order `{order}`?"),
-                true => {
-                    let reversed: String = order.chars().rev().collect();
-                    format!(
-                        "are these angles about fixed axes, `{order}`? reverse the columns, with \
-                         `order = \"{reversed}\"`"
-                    )
-                }
+            all.push(if fixed {
+                let reversed: String = order.chars().rev().collect();
+                format!(
+                    "are these angles about fixed axes, `{order}`? reverse the columns, with \
+                     `order = \"{reversed}\"`"
+                )
+            } else {
+                format!("are these Euler angles in the order `{order}`?")
             });
         }
         (PoseFormat::RotationVector { .. }, PoseFormat::Euler { .. }) => all.push(

@@ -19,7 +19,6 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        let checks_per_false_alarm = FALSE_ALARM.default as f64;
-        Self { checks_per_false_alarm, lambda: 0.2, tolerance: None }
+        Self { checks_per_false_alarm: FALSE_ALARM.default as f64, lambda: 0.2, tolerance: None }
     }
 }

@@ -149,8 +149,7 @@ fn read(root: &Section<'_>, spec: &Spec) -> Option<Sets> {
             }
             Content::Axes(Candidates::variables(spec).axes(&axes))
         } else {
-            let workspace = section.required("workspace")?;
-            Content::Workspace(read_region(&workspace, spec)?)
+            Content::Workspace(read_region(&section.required("workspace")?, spec)?)
         };
         sets.push(Set { name, content });
     }

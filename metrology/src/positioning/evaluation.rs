@@ -267,8 +267,7 @@ impl Evaluation {
         let statistics = Statistics { positions: &positions, uncertainty };
         let forward = statistics.unidirectional(0);
         let reverse = statistics.unidirectional(1);
-        let bidirectional = statistics.bidirectional();
-        Self { forward, reverse, bidirectional, positions }
+        Self { forward, reverse, bidirectional: statistics.bidirectional(), positions }
     }
 }
 

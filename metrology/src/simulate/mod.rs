@@ -150,8 +150,7 @@ impl Simulate {
         {
             let message = "readings relative to the row before cannot be simulated together with contact \
                  instruments";
-            let help = "simulate them with separate maps";
-            return Err(mistake::with_help(map.path(), message, help).into());
+            return Err(mistake::with_help(map.path(), message, "simulate them with separate maps").into());
         }
         let stations = self.stations();
         let listed = match &planned {

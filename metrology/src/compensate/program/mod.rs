@@ -87,9 +87,7 @@ impl Program {
         let ending = path.extension().unwrap_or_default().to_string_lossy();
         let Some(language) = Language::find(&ending) else { return Ok(None) };
         let bytes = Bounded::read_all(path, LARGEST).map_err(|error| {
-            let UnreadableFile { message, help } =
-                UnreadableFile::from_error(&error, "give the path of a file that can be read");
-            mistake::with_help(path.display(), message, help)
+            UnreadableFile::diagnostics(path.display(), &error, "give the path of a file that can be read")
         })?;
         let (text, is_latin) = match String::from_utf8(bytes) {
             Ok(text) => (text, false),
@@ -317,24 +315,20 @@ impl Program {
         for row in rows {
             let Point { is_pose, numbers, .. } = &self.points[row.corrected.configuration as usize];
             let q = &row.corrected.q;
-            let written: Vec<(usize, f64, usize)> = match is_pose {
-                true => {
-                    let pose =
-                        machine.pose(q, &s).map_err(|error| mistake::whole(&description.name, &error))?;
-                    let pose = frame.map_or(pose, |frame| frame.inverse().then(&pose));
-                    self.numbers(&pose, description.length, numbers)
-                }
-                false => {
-                    let joints = channels.iter().zip(q.iter().zip(&*description.variables));
-                    let number = |((place, scale), (value, variable)): (&JointChannel, (&f64, &Variable))| {
-                        let (digits, unit) = match variable.kind {
-                            VariableKind::Revolute => (DIGITS_OF_TURNS, 1.0),
-                            VariableKind::Prismatic => (DIGITS_OF_METRES, description.length.in_metres()),
-                        };
-                        Some(((*place)?, scale.number(*value), decimals(digits, scale.one * unit)))
+            let written: Vec<(usize, f64, usize)> = if *is_pose {
+                let pose = machine.pose(q, &s).map_err(|error| mistake::whole(&description.name, &error))?;
+                let pose = frame.map_or(pose, |frame| frame.inverse().then(&pose));
+                self.numbers(&pose, description.length, numbers)
+            } else {
+                let joints = channels.iter().zip(q.iter().zip(&*description.variables));
+                let number = |((place, scale), (value, variable)): (&JointChannel, (&f64, &Variable))| {
+                    let (digits, unit) = match variable.kind {
+                        VariableKind::Revolute => (DIGITS_OF_TURNS, 1.0),
+                        VariableKind::Prismatic => (DIGITS_OF_METRES, description.length.in_metres()),
                     };
-                    joints.filter_map(number).collect()
-                }
+                    Some(((*place)?, scale.number(*value), decimals(digits, scale.one * unit)))
+                };
+                joints.filter_map(number).collect()
             };
             for (place, number, decimals) in written {
                 let (range, old) = &numbers[place];
@@ -347,9 +341,6 @@ impl Program {
             }
         }
         text += &self.text[end..];
-        match self.is_latin {
-            true => Ok(text.chars().map(|c| c as u8).collect()),
-            false => Ok(text.into_bytes()),
-        }
+        if self.is_latin { Ok(text.chars().map(|c| c as u8).collect()) } else { Ok(text.into_bytes()) }
     }
 }
