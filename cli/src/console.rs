@@ -128,8 +128,7 @@ impl Notes for Console {
             let bar = ProgressBar::new(total as u64).with_elapsed(begun.elapsed());
             bar.with_position(done as u64).with_message(rest.clone())
         };
-        let template = "{bar:30} {pos} of {len} done, {msg} left, Ctrl-C stops";
-        let bar = line.show(true, make, template);
+        let bar = line.show(true, make, "{bar:30} {pos} of {len} done, {msg} left, Ctrl-C stops");
         bar.set_message(rest.clone());
         bar.set_position(done as u64);
     }

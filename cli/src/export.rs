@@ -85,8 +85,7 @@ impl Export {
 pub(crate) fn run(arguments: &Export) -> Result<Outcome> {
     let Export { subject, out, samples, seed, writing, showing, .. } = arguments;
     let format = arguments.format()?;
-    let machine = subject.machine()?;
-    let job = export::Export { machine, format, samples: *samples, seed: *seed };
+    let job = export::Export { machine: subject.machine()?, format, samples: *samples, seed: *seed };
     let mut outputs = Outputs::new(&job, writing.force);
     let report = job.run(&mut Console::default())?;
     let paths = match (out, &report.files[..]) {

@@ -100,8 +100,7 @@ impl Batch<'_> {
     /// Returns the tile rows of each argument.
     fn rows(&self) -> Vec<Vec<usize>> {
         let (description, mut first) = (self.interpreter.description(), 0);
-        let arrays = self.function.signature().arguments.iter();
-        let rows = arrays.map(|array| {
+        let rows = self.function.signature().arguments.iter().map(|array| {
             let rows = first..first + array.len(description);
             first = rows.end;
             rows.collect()

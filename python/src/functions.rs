@@ -142,8 +142,7 @@ impl Machine {
         let description = self.interpreter.description();
         let mut nominal: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();
         let mut columns = Vec::new();
-        let inputs = self.with_columns(q, inputs)?;
-        for (name, value) in inputs.iter().flatten() {
+        for (name, value) in self.with_columns(q, inputs)?.iter().flatten() {
             let name: String = name.extract()?;
             let input = self.input(&name)?;
             if value.is_exact_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {

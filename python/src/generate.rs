@@ -27,8 +27,7 @@ impl Machine {
         only: Option<String>,
         name: Option<String>,
     ) -> PyResult<String> {
-        let files = self.generated(py, language, real, only, name)?;
-        Ok(files.into_iter().map(|file| file.text).collect())
+        Ok(self.generated(py, language, real, only, name)?.into_iter().map(|file| file.text).collect())
     }
 
     /// Returns the closed form as source files: their names and texts, to be written to one folder.

@@ -270,8 +270,7 @@ impl Machine {
     /// Nominal inputs by name, in coherent units (`units`).
     #[getter]
     fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let inputs = self.interpreter.description().inputs.iter();
-        inputs.map(|one| (&*one.name, one.nominal)).into_py_dict(py)
+        self.interpreter.description().inputs.iter().map(|one| (&*one.name, one.nominal)).into_py_dict(py)
     }
 
     /// Names of the enabled error sources, in the order of `source_displacements`.

@@ -133,8 +133,7 @@ pub(crate) fn analysis(
     let report = Arc::new(report);
     let drawn = Arc::clone(&report);
     let found = Report::from_document("analyze", &report, notes, budget)?;
-    let found = found.with_figures(move || abbe_report::figures(&drawn));
-    let found = found.with_pages(move || {
+    let found = found.with_figures(move || abbe_report::figures(&drawn)).with_pages(move || {
         let live = live.as_ref().map(|live| live.run(&mut ())).transpose()?;
         let files = abbe_report::analysis(&report, live.as_ref());
         Ok(files.into_iter().map(|file| (file.name, file.text)).collect())

@@ -58,7 +58,6 @@ impl Machine {
         let document = move |report: &_| views::plan(&spec, &map, report);
         let found =
             Report::from_document("plan", &report, notes, document)?.with_rows(report.table(&job.map));
-        let found = found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())]));
-        found.create(py)
+        found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())])).create(py)
     }
 }

@@ -202,8 +202,7 @@ impl Report {
     /// Returns the machine that was imported, identified, or corrected by the doctor. Raises
     /// ValueError if the report has none.
     fn load(&self, py: Python<'_>) -> PyResult<Machine> {
-        let pages = self.pages(py)?;
-        match pages.into_iter().find(|(name, _)| self.spec.as_ref() == Some(name)) {
+        match self.pages(py)?.into_iter().find(|(name, _)| self.spec.as_ref() == Some(name)) {
             Some((name, text)) => restore_machine(py, &name, Some(text), "[]"),
             None => Err(PyValueError::new_err(format!("a report of {} has no spec", self.kind))),
         }

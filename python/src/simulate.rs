@@ -51,7 +51,6 @@ impl Machine {
         let report = Arc::new(report);
         let found = Report::new("simulate", &report, notes, |report, _| report.table.csv())?;
         let found = found.with_rows(report.table.clone());
-        let found = found.with_pages(move || Ok(vec![("measurements.csv".into(), report.table.csv())]));
-        found.create(py)
+        found.with_pages(move || Ok(vec![("measurements.csv".into(), report.table.csv())])).create(py)
     }
 }

@@ -78,11 +78,10 @@ impl Outputs {
     fn check(&self, path: &Path, target: &Target) -> Result<()> {
         let here = identity(path);
         if let Some((input, _)) = self.inputs.iter().find(|(_, input)| here.as_ref() == Some(input)) {
-            let message = match input == path {
-                true => "this file is an input of the command and cannot be overwritten".to_owned(),
-                false => {
-                    format!("this is {}, an input of the command, and cannot be overwritten", input.display())
-                }
+            let message = if input == path {
+                "this file is an input of the command and cannot be overwritten".to_owned()
+            } else {
+                format!("this is {}, an input of the command, and cannot be overwritten", input.display())
             };
             return Err(Failure::new(path.display(), message).help("choose another file for the output"));
         }

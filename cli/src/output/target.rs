@@ -42,11 +42,10 @@ impl Target {
         let names_folder = last.is_some_and(|byte| std::path::is_separator((*byte).into()));
         match fs::metadata(path) {
             Ok(found) if found.is_file() && !DESCRIPTORS.iter().any(|name| path.starts_with(name)) => {
-                match is_open_as_stdout(path) {
-                    true => Ok(Self::Stdout),
-                    false => {
-                        fs::canonicalize(path).map(Self::File).map_err(|error| cannot_write(path, &error))
-                    }
+                if is_open_as_stdout(path) {
+                    Ok(Self::Stdout)
+                } else {
+                    fs::canonicalize(path).map(Self::File).map_err(|error| cannot_write(path, &error))
                 }
             }
             Ok(found) if !found.is_dir() => Ok(Self::Stream(path.to_owned())),

@@ -113,18 +113,12 @@ impl Section {
 
     /// Adds a statement that introduces a list, which may have no words, if the list has items.
     pub(crate) fn list(self, name: &'static str, text: &str, items: Vec<String>) -> Self {
-        match items.is_empty() {
-            true => self,
-            false => self.state(name, text.to_owned()).with(Some(Block::List(items))),
-        }
+        if items.is_empty() { self } else { self.state(name, text.to_owned()).with(Some(Block::List(items))) }
     }
 
     /// Adds a statement that introduces lines of a file, if there are lines.
     pub(crate) fn code(self, name: &'static str, text: &str, lines: Vec<String>) -> Self {
-        match lines.is_empty() {
-            true => self,
-            false => self.state(name, text.to_owned()).with(Some(Block::Code(lines))),
-        }
+        if lines.is_empty() { self } else { self.state(name, text.to_owned()).with(Some(Block::Code(lines))) }
     }
 
     /// Adds important numbers.

@@ -28,8 +28,7 @@ pub(super) fn scene(points: &Points, figure: &NamedFigure, report: &Report) -> S
     let axes = figure.rows(report).map(|row| errors.named(format!("{row} error")).axis([-reach, reach]));
     let circles = [Some((radius, Colour::INK, around(radius, &errors, figure, report)))].into_iter();
     let circles = circles.chain([tolerance.map(|tolerance| {
-        let name = format!("tolerance {} {}", trimmed(tolerance, 3), errors.unit);
-        (tolerance, Colour::TOLERANCE, name)
+        (tolerance, Colour::TOLERANCE, format!("tolerance {} {}", trimmed(tolerance, 3), errors.unit))
     })]);
     let circles = circles.flatten().collect::<Vec<_>>();
     let panels = views(&axes, |[across, up]| {

@@ -36,8 +36,7 @@ pub(super) fn scene(histogram: &Histogram, figure: &NamedFigure, report: &Report
         let y = Axis::linear("configurations", "", [0.0, 1.05 * most]);
         Panel::plane(HEIGHT, errors.named(name).axis(range), y, vec![Mark::bars(colour, bars).faded(0.8)])
     });
-    let subtitle = format!("{total} configurations");
-    Scene { subtitle, ..Scene::new("", 2, panels.collect()) }
+    Scene { subtitle: format!("{total} configurations"), ..Scene::new("", 2, panels.collect()) }
 }
 
 /// Colours of x, y, z and the norm.

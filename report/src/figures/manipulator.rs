@@ -35,6 +35,5 @@ pub(super) fn scene(stick: &Stick, up: usize, report: &Report) -> Scene {
         Axis::linear(["x", "y", "z"][axis], report.spec.length.symbol(), [least - room, most + room])
     });
     let panels = vec![Panel::new(560.0, View::Space { axes, up, equal: true, marks })];
-    let subtitle = "Links are straight lines between origins".to_owned();
-    Scene { subtitle, ..Scene::new("", 1, panels) }
+    Scene { subtitle: "Links are straight lines between origins".to_owned(), ..Scene::new("", 1, panels) }
 }

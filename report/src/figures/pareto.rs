@@ -30,8 +30,7 @@ pub(super) fn scene(figure: &NamedFigure, report: &Report) -> Scene {
         Mark::points(Colour::XYZ[0], 3.2, curve),
     ];
     let panel = Panel::plane(330.0, x, Axis::linear("share", "%", [0.0, 105.0]), marks);
-    let subtitle = "Largest norm of each source alone".to_owned();
-    Scene { subtitle, ..Scene::new("", 1, vec![panel]) }
+    Scene { subtitle: "Largest norm of each source alone".to_owned(), ..Scene::new("", 1, vec![panel]) }
 }
 
 /// Returns the largest norm of each source in the unit of the figure, in descending order. Beyond

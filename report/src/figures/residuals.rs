@@ -196,8 +196,7 @@ impl Residuals<'_> {
         ];
         let lists = lists.into_iter().filter(|list| !list.values.is_empty()).collect::<Vec<_>>();
         let panels = [along(0), along(1), along(2), panel("norm of the error", "mm", &lists)];
-        let caption = format!("x, y and z: {after}.");
-        Scene::new("Distribution of errors", 2, panels.to_vec()).captioned(caption)
+        Scene::new("Distribution of errors", 2, panels.to_vec()).captioned(format!("x, y and z: {after}."))
     }
 }
 

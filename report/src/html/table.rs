@@ -27,8 +27,7 @@ pub(super) fn facts<N: AsRef<str>, F: AsRef<str>>(
     caption: &str,
     facts: impl IntoIterator<Item = (N, F)>,
 ) -> String {
-    let rows = facts.into_iter().filter(|(_, fact)| !fact.as_ref().is_empty());
-    let rows = rows.map(|(name, fact)| {
+    let rows = facts.into_iter().filter(|(_, fact)| !fact.as_ref().is_empty()).map(|(name, fact)| {
         format!("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name.as_ref(), fact.as_ref())
     });
     format!(

@@ -99,8 +99,7 @@ impl Canvas {
 
     /// Adds a straight line.
     pub(super) fn line(&mut self, ends: [Pixel; 2], colour: Colour, width: f64) {
-        let attributes = format!("stroke=\"{}\" stroke-width=\"{width}\"", colour.css());
-        self.path(&path(&ends), &attributes, "");
+        self.path(&path(&ends), &format!("stroke=\"{}\" stroke-width=\"{width}\"", colour.css()), "");
     }
 
     /// Adds a text with its baseline at a position.

@@ -163,11 +163,10 @@ fn errors(report: &Report, kinds: &[(&str, &ErrorBounds)]) -> Section {
     let section = tables.fold(Section::full("Bounds"), Section::table);
     let unknown =
         kinds.iter().any(|(_, errors)| errors.all().iter().any(|largest| largest.certified.is_none()));
-    let unknown = match unknown {
-        true => {
-            " Where no bound is given, none could be proved: an expression may divide by zero in the box."
-        }
-        false => "",
+    let unknown = if unknown {
+        " Where no bound is given, none could be proved: an expression may divide by zero in the box."
+    } else {
+        ""
     };
     let normal = if is_bounded(report) { "" } else { ", with normal errors within 3 σ" };
     let meaning = format!(

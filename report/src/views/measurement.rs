@@ -189,13 +189,12 @@ fn rule(report: &Report) -> Section {
             }
             _ => "the ideal machine",
         };
-        let rule = match verdict.limits.iter().all(|limit| limit.uncertainty > 0.0) {
-            true => {
-                "A figure is accepted if it is within its limit by at least the expanded uncertainty of the \
-                 measurement, and rejected if beyond by more than that (ISO 14253-1, JCGM 106: a risk of at \
-                 most 5 %, one-sided, by the stated uncertainty of the instrument)."
-            }
-            false => "The uncertainty of the measurement is not stated, and not counted.",
+        let rule = if verdict.limits.iter().all(|limit| limit.uncertainty > 0.0) {
+            "A figure is accepted if it is within its limit by at least the expanded uncertainty of the \
+             measurement, and rejected if beyond by more than that (ISO 14253-1, JCGM 106: a risk of at \
+             most 5 %, one-sided, by the stated uncertainty of the instrument)."
+        } else {
+            "The uncertainty of the measurement is not stated, and not counted."
         };
         format!("Errors from {target} are judged. {rule}")
     });

@@ -65,8 +65,7 @@ fn of_axis(PositioningLine { evaluation, .. }: &PositioningLine, unit: &str) -> 
             [name.to_owned(), shown(both), up, down]
         };
     let none = |_: &Unidirectional| None;
-    let columns = [unit, ">bidirectional", ">forward", ">reverse"];
-    Table::new("", columns).rows([
+    Table::new("", [unit, ">bidirectional", ">forward", ">reverse"]).rows([
         row("A   accuracy", both.and_then(|both| both.accuracy), |side| side.accuracy),
         row("E   systematic error", both.map(|both| both.systematic), |side| Some(side.systematic)),
         row("M   mean error", both.map(|both| both.mean), none),

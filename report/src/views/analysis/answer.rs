@@ -146,8 +146,7 @@ fn figures(report: &Report) -> Table {
             rows.push(["  compensated".to_owned(), value, share, probability, u95, String::new()]);
         }
     }
-    let columns = ["", ">", ">", "", "", ""];
-    Table::new("", columns).rows(rows)
+    Table::new("", ["", ">", ">", "", "", ""]).rows(rows)
 }
 
 /// Names the basis of the compensated figures.

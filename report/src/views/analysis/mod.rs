@@ -27,12 +27,11 @@ const SHOWN: usize = 3;
 /// stand above all tables. `left_out` are disabled sources whose figures are missing.
 pub(crate) fn analysis(report: &Report, [first, others]: [Vec<Figure>; 2], left_out: &[String]) -> Document {
     let mut sections = Vec::new();
-    match report.sources.is_empty() {
-        true => {
-            let none = "No error source is enabled: there is no error to predict.".to_owned();
-            sections.push(Section::answer().state("no_source", none).facts(changed(&report.changes)));
-        }
-        false => sections.push(answer::answer(report)),
+    if report.sources.is_empty() {
+        let none = "No error source is enabled: there is no error to predict.".to_owned();
+        sections.push(Section::answer().state("no_source", none).facts(changed(&report.changes)));
+    } else {
+        sections.push(answer::answer(report));
     }
     sections.extend([
         Section::page("").cards(cards(report)),

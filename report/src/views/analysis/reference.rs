@@ -46,8 +46,7 @@ pub(super) fn values(report: &Report) -> Section {
     });
     let parameters = spec.parameters.iter().map(|p| (p.name.as_str(), quantity(p.value, &p.unit)));
     let list = |values: Vec<(&str, String)>| {
-        let values = values.into_iter().map(|(name, value)| format!("{name} = {value}"));
-        values.collect::<Vec<_>>().join(", ")
+        values.into_iter().map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
     };
     let off = spec.sources.iter().filter(|source| !source.enabled).map(|source| source.name.as_str());
     let others = [

@@ -227,6 +227,5 @@ pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
         row("all together", [None; 3], combined.radius, both),
     ];
     let rows = alone.chain(together).collect();
-    let caption = "Rows 4 to 6 of ΔX in mrad, largest over the workspace";
-    Some(Table::listing(caption, &header, rows))
+    Some(Table::listing("Rows 4 to 6 of ΔX in mrad, largest over the workspace", &header, rows))
 }

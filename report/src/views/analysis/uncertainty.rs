@@ -79,12 +79,11 @@ pub(super) fn uncertainty_sentences(report: &Report, budget: &UncertaintyBudget)
         None => "U covers 95 % of the errors: all random sources are normal.".to_owned(),
         Some(draws) => format!(
             "{} U covers {} % of {} drawn errors.",
-            match estimated {
-                false => "U assumes a normal distribution; with the actual distributions",
-                true => {
-                    "For the norm, with all sources drawn from their distributions, those with \
-                     few degrees of freedom from Student's t (JCGM 101, 6.4.9),"
-                }
+            if estimated {
+                "For the norm, with all sources drawn from their distributions, those with \
+                 few degrees of freedom from Student's t (JCGM 101, 6.4.9),"
+            } else {
+                "U assumes a normal distribution; with the actual distributions"
             },
             number::trimmed(100.0 * coverage.probability, 1),
             number::short(draws as f64),

@@ -90,13 +90,12 @@ fn figures(spec: &Spec, report: &Report) -> Vec<Section> {
 /// Lists the placement of the machine and of what is mounted on its tool.
 fn placement(report: &Report) -> Section {
     let table = places(report);
-    let words = match table.rows.is_empty() {
-        true => "The placement of the machine and of its tool is fixed to the values of the map.",
-        false => {
-            "Errors before the first joint cannot be distinguished from the placement of the machine, \
-             nor errors after the last joint from the mounting of targets; they count as placement. A \
-             placement is no error of the machine: it is not written to the spec and not compensated."
-        }
+    let words = if table.rows.is_empty() {
+        "The placement of the machine and of its tool is fixed to the values of the map."
+    } else {
+        "Errors before the first joint cannot be distinguished from the placement of the machine, \
+         nor errors after the last joint from the mounting of targets; they count as placement. A \
+         placement is no error of the machine: it is not written to the spec and not compensated."
     };
     Section::full("Placement of the machine and of its tool")
         .table(table)
