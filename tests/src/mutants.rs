@@ -1,6 +1,8 @@
 //! Mutants of generated source text: in each function, operators and numbers are replaced by wrong
 //! ones, one at a time.
 
+pub mod every_site;
+
 use std::collections::BTreeMap;
 
 /// Source text with one wrong operation.

@@ -168,7 +168,7 @@ fn refusals_of_javascript() -> Result<(), Missing> {
 }
 
 /// Returns the command that runs a script of the language.
-fn command(language: Language) -> Result<Vec<String>, Missing> {
+pub(crate) fn command(language: Language) -> Result<Vec<String>, Missing> {
     let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
     match language {
         Language::JavaScript => tool("node", "").map(|_| words(&["node"])),
@@ -180,7 +180,7 @@ fn command(language: Language) -> Result<Vec<String>, Missing> {
 
 /// Returns the interface that scripts of other languages call: the arguments with their shapes, and
 /// the name, arguments, results and margin of every function.
-fn called(robot: &dyn Manipulator) -> Value {
+pub(crate) fn called(robot: &dyn Manipulator) -> Value {
     let description = robot.description();
     let shape = |array: &Array| array.shape.iter().map(|count| count.value(description)).collect::<Vec<_>>();
     let arrays = given_arrays();

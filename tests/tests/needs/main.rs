@@ -5,6 +5,7 @@ mod kernels;
 mod languages;
 mod linuxcnc;
 mod measured_data;
+mod mutant_table;
 mod random_loops;
 mod ros;
 mod rustfmt;
@@ -21,6 +22,7 @@ fn main() -> ExitCode {
         ("languages", languages::TESTS),
         ("linuxcnc", linuxcnc::TESTS),
         ("measured_data", measured_data::TESTS),
+        ("mutant_table", mutant_table::TESTS),
         ("ros", ros::TESTS),
         ("rustfmt", rustfmt::TESTS),
         ("structured_text", structured_text::TESTS),

@@ -21,8 +21,9 @@ pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
     writer.blank();
     writer.lines("/**");
     writer.documentation(
-        "Self-test for the target: evaluates every function at one configuration and compares weighted sums of the results \
-         with those of the generator, within the bound of the rounding errors of all operations. Then it gives every \
+        "Self-test for the target: evaluates every function at one configuration and corrected commands at several, and \
+         compares weighted sums of the results with those of the generator, within the bound of the rounding errors of all \
+         operations. Then it gives every \
          function infinity and NaN in the place of each argument, which have to be refused.",
     );
     writer.documentation_line("");
@@ -71,9 +72,7 @@ pub(super) fn definition(
     let commands = Commands::new(&routines.description, model, &given, real);
     let signatures = COMMANDS.into_iter().filter(|signature| routines.exported.contains(&signature.name));
     let calls: Vec<_> = signatures.map(|signature| (signature, commands.calls(signature))).collect();
-    let numbers = calls.iter().map(|(signature, calls)| {
-        (*signature, is_valid(signature, &routines.description, calls, upper, real))
-    });
+    let numbers = calls.iter().map(|(one, _)| (*one, is_valid(one, &routines.description, upper, real)));
     let tested = functions.into_iter().zip(sums).map(conditions);
     let tested: Vec<(&Signature, Vec<String>)> = tested.chain(numbers).collect();
     let takes =
@@ -113,10 +112,8 @@ pub(super) fn definition(
         let refused = ranges.iter().filter(|(name, _)| takes(signature, name)).map(|(_, range)| &range[..]);
         printer.test(signature, conditions, &refused.collect::<Vec<_>>(), index + 1);
     }
-    let number = tested.len();
-    let cycle = calls.iter().find(|(signature, calls)| **signature == COMPENSATED && !calls.is_empty());
-    if let Some((_, calls)) = cycle {
-        printer.cases(&commands, calls, number);
+    for (number, (signature, calls)) in (tested.len() + 1 - calls.len()..).zip(&calls) {
+        printer.cases(signature, calls, number);
     }
     writer.lines("given[at] = kept;");
     writer.close("}");
@@ -155,32 +152,46 @@ impl CPrinter<'_> {
         self.writer.close("}");
     }
 
-    /// Prints the calls of corrected commands within several bounds.
-    fn cases(&mut self, commands: &Commands<'_>, calls: &[Call], number: usize) {
+    /// Prints the calls of a corrected command, or of where one begins, within several bounds.
+    fn cases(&mut self, signature: &Signature, calls: &[Call], number: usize) {
         let (description, real) = (&self.routines.description, self.real);
-        let name = &description.name;
+        let Some(first) = calls.first() else { return };
         self.writer.open("if (trial < 0)");
-        let mut list = |name: &str, numbers: Vec<f64>| {
-            let numbers: Vec<String> = numbers.into_iter().map(|number| real.number(number)).collect();
-            let head = format!("static const {real} {name}[{}] = ", numbers.len());
-            self.writer.braces(&head, &numbers, ";");
+        let mut list = |name: &str, numbers: &mut dyn Iterator<Item = f64>| {
+            let numbers: Vec<String> = numbers.map(|number| real.number(number)).collect();
+            self.writer.braces(&format!("static const {real} {name}[{}] = ", numbers.len()), &numbers, ";");
         };
-        list("shares", calls.iter().flat_map(|call| call.shares).collect());
         let sums = || calls.iter().flat_map(|call| &call.sums);
-        list("expected", sums().map(|[sum, _]| *sum).collect());
-        list("tolerances", sums().map(|[_, tolerance]| upwards(*tolerance)).collect());
+        list("calls", &mut calls.iter().flat_map(|call| call.row.iter().copied()));
+        list("expected", &mut sums().map(|[sum, _]| *sum));
+        list("tolerances", &mut sums().map(|[_, tolerance]| upwards(*tolerance)));
         let statuses = calls.iter().map(|call| self.code(call.status.name())).collect::<Vec<_>>();
         self.writer.braces(&format!("static const int statuses[{}] = ", calls.len()), &statuses, ";");
-        let given = COMPENSATED.arguments.iter().filter(|array| matches!(array.name, "s" | "u"));
+        let (results, mut wrong) = (signature.results, String::new());
+        for (i, Array { name, .. }) in results.iter().enumerate() {
+            let len = results[i].len(description);
+            let at = format!("[({} * k) + {i}]", results.len()).replace(" + 0", "");
+            self.writer.lines(&format!("{real} {name}[{len}];"));
+            wrong += &format!("\n        || sums_to({name}, {len}, expected{at}, tolerances{at}) == 0");
+        }
+        let given = signature.arguments.iter().filter(|array| matches!(array.name, "s" | "u"));
         let given = given.filter(|array| !array.is_empty(description));
+        let (bounds, called) = match *signature == COMPENSATED {
+            true => (real.text(BOUNDS), "compensated(&row[7], GIVENfirst, change, largest, row, RESULTS)"),
+            false => (String::new(), "begin(&row[7], GIVENrow, RESULTS)"),
+        };
         let text = [
+            ("    BOUNDS\n", bounds),
             ("CASES", calls.len().to_string()),
+            ("WIDTH", first.row.len().to_string()),
             ("COUNT", description.variables.len().to_string()),
-            ("JOINT", commands.limited().map_or(0, |(at, _)| at).to_string()),
-            ("GIVEN ", given.map(|array| format!("given_{}, ", array.name)).collect()),
+            ("CALLED", called.to_owned()),
+            ("GIVEN", given.map(|array| format!("given_{}, ", array.name)).collect()),
+            ("RESULTS", results.iter().map(|array| array.name).collect::<Vec<_>>().join(", ")),
+            ("SUMS", wrong),
             ("NUMBER", number.to_string()),
-            ("UPPER", name.to_ascii_uppercase()),
-            ("NAME", name.to_string()),
+            ("UPPER", description.name.to_ascii_uppercase()),
+            ("NAME", description.name.to_string()),
         ];
         let text = text.iter().fold(real.text(CASES), |text, (word, with)| text.replace(word, with));
         self.writer.lines(text.trim_end());
@@ -189,6 +200,8 @@ impl CPrinter<'_> {
 }
 
 const CASES: &str = include_str!("commands.c");
+
+const BOUNDS: &str = include_str!("bounds.c");
 
 /// Returns angles of both signs in every quadrant, two of them large, then their sines, then their
 /// cosines.
@@ -214,25 +227,13 @@ fn sums_to(signature: &Signature, upper: &str, sums: &Sums, real: Real) -> Vec<S
 }
 
 /// Returns the conditions that the results of a corrected command are finite, and its status one
-/// of those with results; for where one begins, that they are as computed.
-fn is_valid(
-    signature: &Signature,
-    description: &Description,
-    calls: &[Call],
-    upper: &str,
-    real: Real,
-) -> Vec<String> {
+/// of those with results.
+fn is_valid(signature: &Signature, description: &Description, upper: &str, real: Real) -> Vec<String> {
     let infinity = real.number(f64::INFINITY);
     let finite =
         |array: &Array| format!("are_below({}, {}, {infinity}) != 0", array.name, array.len(description));
     let status = format!("(status == {upper}_OK || status >= {upper}_NOT_CONVERGED)");
-    let sums = calls.first().filter(|_| *signature != COMPENSATED).into_iter().flat_map(|call| &call.sums);
-    let sum = |(array, [sum, tolerance]): (&Array, &[f64; 2])| {
-        let [sum, tolerance] = [*sum, upwards(*tolerance)].map(|number| real.number(number));
-        format!("sums_to({}, {}, {sum}, {tolerance}) != 0", array.name, array.len(description))
-    };
-    let sums = signature.results.iter().zip(sums).map(sum);
-    signature.results.iter().map(finite).chain([status]).chain(sums).collect()
+    signature.results.iter().map(finite).chain([status]).collect()
 }
 
 /// Rounds a bound up to two digits.

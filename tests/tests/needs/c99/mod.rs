@@ -22,7 +22,7 @@ use self::program::{STRICT, called, functions, succeeds, write, write_files};
 
 mod arithmetic;
 mod mutants;
-mod program;
+pub(crate) mod program;
 mod selected;
 mod single;
 

@@ -108,7 +108,7 @@ pub(crate) fn caller(robot: &Interpreter, real: Real) -> String {
         "#include \"{name}.h\"\n#include <stdio.h>\n\
          static void put_one(double number) {{ fwrite(&number, sizeof number, 1, stdout); }}\n\
          static void put(const {real} *numbers, int count) {{ for (int k = 0; k < count; k++) {{ put_one((double)numbers[k]); }} }}\n\
-         int main(void)\n{{\n    double read[{count}];\n    {real} given[{count}];\n    int status = {name}_self_test();\n    put_one(status);\n    \
+         int main(void)\n{{\n    double read[{count}];\n    {real} given[{count}];\n    int status = {name}_self_test();\n    put_one(status);\n    fflush(stdout);\n    \
          while (fread(read, sizeof(double), {count}, stdin) == {count}) {{\n    \
          for (int k = 0; k < {count}; k++) {{ given[k] = ({real})read[k]; }}\n{}{}    }}\n    return 0;\n}}\n",
         given.collect::<String>(),
