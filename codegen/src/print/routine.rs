@@ -99,7 +99,7 @@ impl<L: Printer> Walker<'_, L> {
         self.flat.routine.arrays[array].role == Role::Result
             && match L::RESULTS {
                 Results::Created => true,
-                Results::Given => !self.flat.begins_whole(array),
+                Results::Given => !self.flat.begins_whole(array) || self.flat.keeps_zeros(array),
                 Results::Kept => self.flat.keeps_zeros(array),
             }
     }

@@ -5,7 +5,7 @@ use abbe_spec::Spec;
 
 use super::{CPrinter, RESTRICT, Real, broken, comment, operators::C};
 use crate::print::routine::statements;
-use crate::print::{Flat, Printer, Statements, Writer, sizes};
+use crate::print::{Flat, Printer, Statement, Statements, Writer, filled, sizes};
 use crate::program::{Array, Checks, Role, Routine, Routines};
 
 /// Returns the head of a function without its end: `int pps_pose(const double q[ABBE_RESTRICT(6)],
@@ -101,11 +101,15 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     let checks = routines.checks(routine, real.largest());
     let mut function = Function { printer: CPrinter { writer, routines, real }, flat };
     function.begin(&used, !list.is_empty(), &checks);
+    function.zeros(&list);
     let margin = statements(&mut function.printer, flat, &list);
     // The status code of the called function covers its margin.
     function.end(margin.filter(|margin| *margin != "margin"), &checks);
     writer.close("}");
 }
+
+/// More zeros than these take less room as a loop.
+const LOOP: usize = 12;
 
 /// The checks of a function.
 struct Function<'p> {
@@ -131,6 +135,37 @@ impl Function<'_> {
         }
         if is_function {
             self.check_arguments(checks);
+        }
+    }
+
+    /// Prints the zeros of results whose every element is assigned once: together, as compilers
+    /// vectorize them, or as a loop over all elements if the code is to be small.
+    fn zeros(&mut self, list: &[Statement]) {
+        let Self { printer: CPrinter { writer, real, .. }, flat } = self;
+        let once = |array: &usize| flat.keeps_zeros(*array) && flat.begins_whole(*array);
+        for array in (0..flat.routine.arrays.len()).filter(once) {
+            let (name, zero) = (flat.routine.arrays[array].name, real.number(0.0));
+            let mut entries = vec![];
+            for statement in list {
+                if let Statement::Assign { to, index, values, .. } = statement
+                    && to.array == array
+                {
+                    let zeros = values.iter().enumerate().filter(|(_, value)| value.is_zero);
+                    let place = |k| flat.index(*to, *index, k, |_, _| String::new());
+                    entries.extend(zeros.map(|(k, _)| format!("{name}[{}] = {zero}", place(k))));
+                }
+            }
+            if entries.len() > LOOP {
+                let head = format!(
+                    "#if defined(__OPTIMIZE_SIZE__)\nfor (int k = 0; k < {}; k++) {{",
+                    flat.len(array)
+                );
+                writer.lines(&format!("{head}\n    {name}[k] = {zero};\n}}\n#else"));
+            }
+            filled(writer, "", &entries, "; ");
+            if entries.len() > LOOP {
+                writer.lines("#endif");
+            }
         }
     }
 

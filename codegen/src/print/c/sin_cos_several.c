@@ -1,7 +1,7 @@
 /* Sines and cosines of COUNT angles: those of sin_cos, on processors with vectors without branches. */
 static void sin_cos_COUNT(const double *x, double *sines, double *cosines)
 {
-#if defined(__SSE2__) || defined(_M_X64) || defined(__aarch64__)
+#if !defined(__OPTIMIZE_SIZE__) && (defined(__SSE2__) || defined(_M_X64) || defined(__aarch64__))
     const double round = ROUND;
     double s_of[COUNT];
     double c_of[COUNT];
