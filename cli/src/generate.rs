@@ -20,6 +20,7 @@ use crate::{Console, Failure, Result};
   abbe generate arm.toml --lang python --out arm.py
   abbe generate arm.toml --lang matlab --out arm.m
   abbe generate arm.toml --lang st --out arm.st         for CODESYS, TwinCAT and other PLCs
+  abbe generate arm.toml --lang plcopen --out arm.xml   the same, to import in one step
   abbe generate arm.toml --lang fmu --out arm.fmu       for simulators
 "))]
 pub(crate) struct Generate {

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 Convention: TypeAlias = Literal["standard", "modified"]
 Criterion: TypeAlias = Literal["v", "d"]
 Format: TypeAlias = Literal["dh", "urdf", "ur-calibration", "isg-csv", "kinematics-comp", "linuxcnc", "linuxcnc-matrixkins", "linuxcnc-genhexkins", "table"]
-Language: TypeAlias = Literal["rust", "c", "js", "python", "matlab", "st", "fmu"]
+Language: TypeAlias = Literal["rust", "c", "js", "python", "matlab", "st", "plcopen", "fmu"]
 Real: TypeAlias = Literal["double", "float"]
 Robust: TypeAlias = Literal["none", "huber", "tukey"]
 Terms: TypeAlias = Literal["auto", "joint", "load", "elastic", "backlash", "product", "drift", "profile"]

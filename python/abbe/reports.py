@@ -571,6 +571,47 @@ class CheckReport(Report):
     """Results of the self-checks, one per law; empty if loops do not close at home."""
 
 
+class CircularPath(Fields):
+    """Results of one direction. Values are in um, about the centre of the least-squares circle."""
+
+    center: list[float]
+    """Coordinates x and y of the centre, in `unit`."""
+
+    circularity: Characteristic
+    """Circular deviation `G`, the synchronous error motion of an axis of rotation."""
+
+    largest: Characteristic
+    """Largest radial deviation `F_max`."""
+
+    smallest: Characteristic
+    """Smallest radial deviation `F_min`."""
+
+    asynchronous: float | None
+    """Asynchronous error motion, in `unit`: the largest range of readings at one angle; none unless each has several."""
+
+    total: float | None
+    """Total error motion, in `unit`: the range of all readings; none unless each angle has several."""
+
+
+class CircularResult(Fields):
+    """Results of a circular test. Values are in um."""
+
+    forward: CircularPath | None
+    """Path in the direction of rising angles, counterclockwise; none without its readings."""
+
+    reverse: CircularPath | None
+    """Path clockwise."""
+
+    circularity: Characteristic | None
+    """Bidirectional circular deviation `G(b)`; none unless there are both directions."""
+
+    hysteresis: Characteristic | None
+    """Circular hysteresis `H`; none unless every angle has both directions."""
+
+    mean: Characteristic | None
+    """Mean bidirectional radial deviation `D`."""
+
+
 class CombinedReport(Fields):
     """Combined position errors over the workspace, along x, y, z of `F_0`, in the length unit."""
 
@@ -2815,6 +2856,9 @@ class PositioningReport(Report):
 
     diagonals: DiagonalResult | None
     """Results of all diagonals together; none for an axis."""
+
+    circle: CircularResult | None
+    """Results of a circular test; none for positions."""
 
     accepted: AcceptanceVerdict | None
     """Verdict by the limits, in `unit`; none without limits."""

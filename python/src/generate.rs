@@ -1,6 +1,6 @@
 //! Generated source code.
 
-use abbe_study::generate::{Generate, Language, SourceFile};
+use abbe_study::generate::{Generate, Language};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
@@ -12,9 +12,9 @@ use crate::machine::Machine;
 impl Machine {
     /// Returns the closed form as source code in one text.
     ///
-    /// `language`: "rust", "c", "js", "python", "matlab" or "st". `real`: floating-point type of C,
-    /// "double" (default) or "float". The text of C is the header followed by the source;
-    /// `generate_files` returns them one by one. The same spec always gives the same text.
+    /// `language`: "rust", "c", "js", "python", "matlab", "st" or "plcopen". `real`: floating-point
+    /// type of C, "double" (default) or "float". The text of C is the header followed by the
+    /// source; `generate_files` returns them one by one. The same spec always gives the same text.
     ///
     /// `only`: functions to write, with what they need, separated by commas, for "c", "js",
     /// "python" and "matlab"; None for all. `name`: name in the code instead of the machine's.
@@ -27,7 +27,8 @@ impl Machine {
         only: Option<String>,
         name: Option<String>,
     ) -> PyResult<String> {
-        Ok(self.generated(py, language, real, only, name)?.into_iter().map(|file| file.text).collect())
+        let files = self.generate_files(py, language, real, only, name)?;
+        files.values().iter().map(|text| text.extract::<String>()).collect()
     }
 
     /// Returns the closed form as source files: their names and texts, to be written to one folder.
@@ -46,20 +47,6 @@ impl Machine {
         only: Option<String>,
         name: Option<String>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let files = self.generated(py, language, real, only, name)?;
-        files.into_iter().map(|file| (file.name, file.text)).into_py_dict(py)
-    }
-}
-
-impl Machine {
-    fn generated(
-        &self,
-        py: Python<'_>,
-        language: &str,
-        real: Option<&str>,
-        only: Option<String>,
-        name: Option<String>,
-    ) -> PyResult<Vec<SourceFile>> {
         let language = match named("language", language, Generate::LANGUAGES)? {
             Language::Fmu(_) => {
                 return Err(PyValueError::new_err(
@@ -75,6 +62,7 @@ impl Machine {
             (_, Some(_)) => return Err(PyValueError::new_err("`real` is for language=\"c\": leave it out")),
         };
         let job = Generate { machine: self.machine.clone(), language, only, name };
-        Ok(run(py, None, None, |notes| job.run(notes))?.0)
+        let (files, _) = run(py, None, None, |notes| job.run(notes))?;
+        files.into_iter().map(|file| (file.name, file.text)).into_py_dict(py)
     }
 }

@@ -35,7 +35,7 @@ const _: () = assert!(Generate::LANGUAGES.0.len() == Language::ALL.len());
 
 impl Generate {
     /// Target languages, with C and the functional mock-up unit in their default variants.
-    pub const LANGUAGES: Choices<Language> = all!(Language: 0 1 2 3 4 5 6);
+    pub const LANGUAGES: Choices<Language> = all!(Language: 0 1 2 3 4 5 6 7);
 
     /// Floating-point types for C.
     pub const REALS: Choices<Real> = all!(Real: 0 1);

@@ -59,19 +59,22 @@ pub enum Language {
     Matlab,
     /// Function blocks in Structured Text of IEC 61131-3, for programmable logic controllers.
     StructuredText,
+    /// Function blocks as a PLCopen document, which development environments import.
+    Plcopen,
     /// The files of a functional mock-up unit, an archive that simulators load.
     Fmu(Fmi),
 }
 
 impl Language {
     /// Every language; C and the functional mock-up unit in their default variant.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Rust,
         Self::C(Real::Double),
         Self::JavaScript,
         Self::Python,
         Self::Matlab,
         Self::StructuredText,
+        Self::Plcopen,
         Self::Fmu(Fmi::Three),
     ];
 
@@ -84,6 +87,7 @@ impl Language {
             Self::Python => "python",
             Self::Matlab => "matlab",
             Self::StructuredText => "st",
+            Self::Plcopen => "plcopen",
             Self::Fmu(_) => "fmu",
         }
     }
@@ -140,7 +144,11 @@ impl Language {
             Self::JavaScript => one("js", javascript::module(spec, &routines)),
             Self::Python => vec![python::file(spec, &routines)],
             Self::Matlab => vec![matlab::class(spec, &routines)],
-            Self::StructuredText => vec![structured_text::file(spec, &routines)],
+            Self::StructuredText => one("st", structured_text::text(spec, &routines)),
+            Self::Plcopen => {
+                let text = structured_text::text(spec, &routines);
+                one("xml", structured_text::plcopen::document(&spec.name, &text))
+            }
             Self::Fmu(fmi) => fmu::files(spec, &model, &routines, fmi),
         }
     }

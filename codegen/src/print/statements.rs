@@ -223,8 +223,7 @@ impl Writer<'_> {
         for (place, first, taken) in
             self.reads(block).into_iter().filter(|(place, ..)| block.is_constant(place))
         {
-            let array = &self.routine.arrays[place.array];
-            let free = self.names.name_locals(array, first, &taken);
+            let free = self.names.name_locals(&self.routine.arrays[place.array], first, &taken);
             names.take_locals(first, &free);
             if taken.contains(&true) {
                 statements.push(Statement::Unpack { names: free, from: *place });

@@ -43,7 +43,7 @@ fn declared(language: Language, line: &str) -> Option<&str> {
             let (name, _) = line.split_once(" = ")?;
             (first(name) == name.len()).then_some(name)
         }
-        Language::Rust | Language::StructuredText | Language::Fmu(_) => None,
+        Language::Rust | Language::StructuredText | Language::Plcopen | Language::Fmu(_) => None,
     }
     .filter(|name| !name.is_empty())
 }
@@ -56,7 +56,9 @@ fn check(language: Language, SourceFile { name, text }: &SourceFile) {
         Language::JavaScript => JAVASCRIPT,
         Language::Python => PYTHON,
         Language::Matlab => MATLAB,
-        Language::Rust | Language::Fmu(_) => panic!("names of {language:?} are not checked here"),
+        Language::Rust | Language::Plcopen | Language::Fmu(_) => {
+            panic!("names of {language:?} are not checked here")
+        }
         Language::StructuredText => {
             Program::parse(text).unwrap_or_else(|fault| panic!("{name}: {fault}"));
             return;

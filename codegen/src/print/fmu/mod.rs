@@ -17,6 +17,7 @@ use self::variables::{CORRECTED, CORRECTION, Causality, OUTPUTS, Variable, Varia
 use super::{Real, SourceFile, c};
 use crate::{chain::Model, program::Routines};
 pub use description::Fmi;
+pub(super) use xml::escaped;
 
 /// Functions of the C code that the unit calls.
 pub(super) const FUNCTIONS: [&str; 4] = ["pose", "predicted_displacement", "real_pose", "compensated"];

@@ -60,7 +60,7 @@ impl Element {
 
 /// Escapes markup. Characters that XML cannot contain or that alter the text around them become
 /// `�`; line breaks and tabs become spaces.
-pub(super) fn escaped(text: &str) -> String {
+pub(in crate::print) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {
         match character {

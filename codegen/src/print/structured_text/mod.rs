@@ -2,9 +2,9 @@
 //!
 //! `blocks` prints routines as function blocks, `procedures` statements, lookup tables and the
 //! corrected commands, `operators` expressions, `support` the sine and other functions,
-//! `declarations` variables. Everything is in the common part of the editions of the standard and
-//! of the dialects: no methods, pointers or references. Arrays have types with names, and numbers
-//! are within the range of REAL: MATIEC needs both.
+//! `declarations` variables; `plcopen` makes XML of them. Everything is in the common part of the
+//! editions of the standard and of the dialects: no methods, pointers or references. Arrays have
+//! types with names, and numbers are within the range of REAL: MATIEC needs both.
 //!
 //! Invalid operations stop many controllers, so that nothing computes with NaN: a function that
 //! has no value sets `fault`, which becomes a status.
@@ -12,6 +12,7 @@
 mod blocks;
 mod declarations;
 mod operators;
+pub(super) mod plcopen;
 mod procedures;
 mod support;
 
@@ -22,11 +23,11 @@ use self::declarations::{comment, harmless};
 use self::operators::{StructuredText, initial, instance, number};
 use self::procedures::scalar;
 use self::support::Support;
-use super::{NOT_CLOSED, SourceFile, Writer, header::header};
+use super::{NOT_CLOSED, Writer, header::header};
 use crate::{procedure::Precision, program::Routines};
 
-/// Returns the file of a manipulator.
-pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
+/// Returns the text of a manipulator.
+pub(super) fn text(spec: &Spec, routines: &Routines) -> String {
     let syntax = StructuredText::new(spec, routines);
     let mut writer = Writer::new(" *");
     writer.lines("(*");
@@ -82,7 +83,7 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
     types.begin("TYPE");
     writer.arrays.iter().for_each(|(name, array)| types.lines(&format!("{name} : {array};")));
     types.close("END_TYPE");
-    SourceFile { name: format!("{}.st", spec.name), text: head + &types.finish() + &writer.finish() }
+    head + &types.finish() + &writer.finish()
 }
 
 /// Properties of the file that its user must know.

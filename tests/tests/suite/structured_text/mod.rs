@@ -7,6 +7,7 @@
 mod chapter;
 mod cycles;
 mod guards;
+mod plcopen;
 mod rejected;
 mod repeated;
 mod support;
