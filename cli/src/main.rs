@@ -108,7 +108,7 @@ enum Command {
     /// Evaluate measurements of a machine: accuracy, repeatability, and the part that its sources
     /// explain
     Measure(measure::Measure),
-    /// Evaluate runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6
+    /// Evaluate runs of one axis by ISO 230-2, diagonals by ISO 230-6, or circles by ISO 230-4
     ///
     /// The characteristics A, E, M, R and B come with their uncertainty, if that of the instrument
     /// is stated.

@@ -1,4 +1,5 @@
-//! `abbe positioning`: evaluates runs of an axis by ISO 230-2, or of body diagonals by ISO 230-6.
+//! `abbe positioning`: evaluates runs of an axis by ISO 230-2, of body diagonals by ISO 230-6, or
+//! of circles by ISO 230-4.
 
 use std::path::PathBuf;
 
@@ -16,6 +17,7 @@ use crate::{Console, Failure, Outcome, Outputs, Result};
   abbe positioning x-axis.csv --out exx.csv
   abbe positioning x-axis.csv --accept \"A 12um, B 3um\" --report x-axis.html
   abbe positioning diagonals.csv
+  abbe positioning ballbar.csv --accept \"G 10um, H 3um\"
 ", "a characteristic is not within its limit by its uncertainty"))]
 pub(crate) struct Positioning {
     /// Runs: a CSV file with columns `position (mm)`, `direction` (`+` or `-`) and `deviation
@@ -23,6 +25,10 @@ pub(crate) struct Positioning {
     ///
     /// A column `diagonal` names the body diagonal of each row, and the runs are evaluated by
     /// ISO 230-6.
+    ///
+    /// A column `angle (deg)` instead of `position` has a circular test, of a ballbar or a
+    /// spindle, whose `deviation (um)` is that of the radius; `+` is counterclockwise. It is
+    /// evaluated by ISO 230-4, and by ISO 230-7 if angles have several readings.
     #[arg(value_hint = ValueHint::FilePath)]
     data: PathBuf,
     /// Standard uncertainty of one reading of the instrument: `0.1um`, `0.05arcsec`
@@ -72,7 +78,7 @@ pub(crate) fn run(arguments: &Positioning) -> Result<Outcome> {
         (None, _) => None,
         (Some(file), Some(table)) => Some(file.fill(&table.csv())?),
         (Some(_), None) => {
-            let message = "the deviations of several diagonals are not a table of one axis";
+            let message = "the deviations of diagonals and circles are not a table of one axis";
             return Err(Failure::new("--out", message).help("leave `--out` out"));
         }
     };

@@ -1,4 +1,4 @@
-//! Runs of an axis of a machine tool, or of body diagonals.
+//! Runs of an axis of a machine tool, of body diagonals, or of a circular test.
 
 use std::sync::Arc;
 
@@ -8,11 +8,12 @@ use pyo3::prelude::*;
 
 use crate::{Measured, Report, run};
 
-/// Evaluates runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6.
+/// Evaluates runs of one axis by ISO 230-2, body diagonals by ISO 230-6, or circles by ISO 230-4.
 ///
 /// `data`: a CSV file or a table with columns `position (mm)`, `direction` (`+` or `-`) and
 /// `deviation (um)` or `actual (mm)`; or with one column for each pass, `1+ (um)`, `1- (um)`, …
-/// A column `diagonal` names the body diagonal of each row. `reading_uncertainty`,
+/// A column `diagonal` names the body diagonal of each row. A column `angle (deg)` instead of
+/// `position` has a circular test, whose deviations are those of the radius. `reading_uncertainty`,
 /// `scale_uncertainty`: standard uncertainties of one reading of the instrument, "0.1 um", and of
 /// its scale, "1 um/m". `accept`: limits of characteristics, "A 12 um, B 3 um"; the report then has
 /// a verdict, `accepted`.

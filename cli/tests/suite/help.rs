@@ -72,6 +72,8 @@ fn examples_run() {
     .unwrap();
     let diagonals = "diagonal,position (mm),1+ (um),1- (um)\nPPP,0,0,1\nPPP,500,4,3\n";
     fs::write(at.join("diagonals.csv"), diagonals).unwrap();
+    let circle = "angle (deg),1+ (um),1- (um)\n0,1,0\n90,3,1\n180,4,2\n270,1,0\n";
+    fs::write(at.join("ballbar.csv"), circle).unwrap();
     let program =
         "MODULE P\nCONST jointtarget a:=[[0,-80,80,0,40,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nENDMODULE\n";
     fs::write(at.join("part.mod"), program).unwrap();

@@ -126,6 +126,71 @@ fn limits_are_kept_by_the_uncertainty() {
     assert!(run.status == 2 && run.stderr.contains("A is not known"), "{}", run.stderr);
 }
 
+/// Ballbar: 24 angles, an ellipse of ± 3 um by a squareness, and ± 0.5 um of the directions.
+fn ballbar(header: &str, row: impl Fn(f64, &str, f64) -> String) -> String {
+    let mut text = format!("{header}\n");
+    for (direction, lag) in [("ccw", 0.5), ("cw", -0.5)] {
+        for k in 0..24 {
+            let angle = 15.0 * f64::from(k);
+            let own = 2.0 + 7.0 * angle.to_radians().cos() + 3.0 * (2.0 * angle).to_radians().sin() + lag;
+            text += &format!("{}\n", row(angle, direction, own));
+        }
+    }
+    text
+}
+
+#[test]
+fn circles_are_evaluated_by_iso_230_4() {
+    let folder = tempfile::tempdir().unwrap();
+    let forms = [
+        ballbar("angle (deg),direction,deviation (um)", |at, side, own| format!("{at},{side},{own:.6}")),
+        ballbar("Angle (rad);Direction;radius (mm)", |at, side, own| {
+            format!("{:.12};{side};{:.9}", at.to_radians(), own / 1e3)
+        }),
+    ];
+    for (i, form) in forms.iter().enumerate() {
+        let file = write(folder.path(), &format!("circle{i}.csv"), form);
+        let file = file.to_str().unwrap();
+        let circle = &json(&["positioning", file, "--json"])["circle"];
+        let value = |pointer: &str| circle.pointer(pointer).unwrap().as_f64().unwrap();
+        for (pointer, expected) in [
+            ("/forward/circularity/value", 6.0),
+            ("/forward/largest/value", 5.5),
+            ("/reverse/smallest/value", -1.5),
+            ("/forward/center/0", 7.0),
+            ("/circularity/value", 7.0),
+            ("/hysteresis/value", 1.0),
+            ("/mean/value", 2.0),
+        ] {
+            assert!((value(pointer) - expected).abs() < 1e-5, "{pointer}: {}", value(pointer));
+        }
+        let run = abbe(&["positioning", file, "--accept", "G 7.5um, H 0.9um"]);
+        assert_eq!((run.status, &run.stderr[..]), (1, ""), "{}", run.stdout);
+        assert!(
+            run.stdout.contains("Not accepted on the runs") && run.stdout.contains("circular hysteresis")
+        );
+        narrow(&run.stdout);
+        narrow(&full(&["positioning", file]));
+        let page = folder.path().join(format!("circle{i}.html"));
+        prints(&["positioning", file, "--report", page.to_str().unwrap()]);
+        assert!(fs::read_to_string(page).unwrap().contains("counterclockwise"));
+        let run = abbe(&["positioning", file, "--accept", "A 3um"]);
+        assert!(run.status == 2 && run.stderr.contains("unknown figure `A`"), "{}", run.stderr);
+    }
+    for (text, message) in [
+        ("angle (deg),1+ (um)\n0,1\n90,2\n120,1\n", "no readings in half of the circle or more"),
+        ("angle (deg),1+ (arcsec)\n0,1\n90,2\n200,1\n", "are not an angle and a length"),
+        ("angle (mm),1+ (um)\n0,1\n90,2\n200,1\n", "are not an angle and a length"),
+    ] {
+        let file = write(folder.path(), "wrong.csv", text);
+        let run = abbe(&["positioning", file.to_str().unwrap()]);
+        assert!(run.status == 2 && run.stderr.contains(message), "{text}: {}", run.stderr);
+    }
+    let one = write(folder.path(), "one.csv", "angle (deg),1+ (um)\n0,1\n90,2\n200,1\n300,4\n");
+    let run = abbe(&["positioning", one.to_str().unwrap(), "--accept", "H 3um"]);
+    assert!(run.status == 2 && run.stderr.contains("H is not known"), "{}", run.stderr);
+}
+
 /// Checks that the answer says why characteristics are missing, and at which position.
 #[test]
 fn missing_characteristics_have_their_reason() {
@@ -192,7 +257,7 @@ fn diagonals_are_evaluated_together() {
     let text = prints(&["positioning", file.to_str().unwrap()]);
     assert!(text.starts_with("diagonals.csv: E_d 7 um, B_d 2 um (ISO 230-6)\n"), "{text}");
     let refused = abbe(&["positioning", file.to_str().unwrap(), "--out", "x.csv"]);
-    assert!(refused.status == 2 && refused.stderr.contains("several diagonals"), "{refused:?}");
+    assert!(refused.status == 2 && refused.stderr.contains("of diagonals and circles"), "{refused:?}");
     assert!(!Path::new("x.csv").exists());
 }
 

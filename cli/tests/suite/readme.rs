@@ -113,5 +113,5 @@ fn commands_in_the_table_of_the_chapter_run() {
         assert!(folder.path().join(words[words.len() - 1]).exists(), "{line}");
         run += 1;
     }
-    assert_eq!(run, 7);
+    assert_eq!(run, 8);
 }

@@ -3,7 +3,8 @@
 //!
 //! A file has one row for each reading, with columns `position`, `direction` and `deviation` (or
 //! `actual`, the actual position), or one row for each position with one column for each pass,
-//! such as `1+` and `1-`. Units are in the headings: `position (mm)`, `deviation (um)`.
+//! such as `1+` and `1-`. Units are in the headings: `position (mm)`, `deviation (um)`. A circular
+//! test has a column `angle` instead, and deviations of the radius.
 
 use abbe::LengthUnit;
 use abbe_spec::expr::{Dimension, Unit};
@@ -26,13 +27,15 @@ pub struct TargetRuns {
 pub struct Runs {
     /// The axis is rotary.
     pub is_rotary: bool,
+    /// The positions are angles on a circle, in deg, the deviations those of its radius.
+    pub is_circle: bool,
     /// Name of each diagonal, empty for an axis, and its targets by rising position.
     pub lines: Vec<(String, Vec<TargetRuns>)>,
 }
 
 /// Names of columns, in lower case.
 const POSITION: [&str; 3] = ["position", "target", "target position"];
-const DEVIATION: [&str; 2] = ["deviation", "error"];
+const DEVIATION: [&str; 4] = ["deviation", "error", "radius", "radial deviation"];
 const ACTUAL: [&str; 3] = ["actual", "actual position", "measured"];
 const DIRECTION: [&str; 2] = ["direction", "approach"];
 const DIAGONAL: [&str; 1] = ["diagonal"];
@@ -41,8 +44,8 @@ const IGNORED: [&str; 3] = ["run", "line", "time"];
 
 /// Words for the directions of approach, from below and from above.
 const WORDS: [&[&str]; 2] = [
-    &["+", "1", "+1", "up", "forward", "fwd", "positive", "↑"],
-    &["-", "−", "-1", "down", "reverse", "rev", "backward", "negative", "↓"],
+    &["+", "1", "+1", "up", "forward", "fwd", "positive", "↑", "ccw"],
+    &["-", "−", "-1", "down", "reverse", "rev", "backward", "negative", "↓", "cw"],
 ];
 
 /// Distance of positions, relative to the largest, within which they are the same.
@@ -87,7 +90,8 @@ pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
     let refuse = |message: String, help: &str| Err(mistake::with_help(&name, message, help));
     let parts: Vec<(String, Option<&str>)> = heading.iter().map(|cell| split(cell)).collect();
     let find = |names: &[&str]| parts.iter().position(|(own, _)| names.contains(&own.as_str()));
-    let Some(position) = find(&POSITION) else {
+    let is_circle = find(&POSITION).is_none();
+    let Some(position) = find(&POSITION).or(find(&["angle"])) else {
         let is_none = not_a_heading(&heading, &["position (mm)", "direction", "deviation (um)"]);
         return refuse("no column is named `position`".to_owned(), is_none.as_deref().unwrap_or(FORM));
     };
@@ -133,15 +137,20 @@ pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
         return refuse("no column is named `direction`".to_owned(), FORM);
     }
     let position_unit = unit(position)?;
-    if let Some(own) = readings.iter().find(|own| own.unit.dimension != position_unit.dimension) {
-        let message = format!(
-            "`{}` and `{}` are not both lengths or both angles",
-            heading[position].escape_debug(),
-            heading[own.place].escape_debug()
-        );
-        return refuse(message, "write the units of one axis");
+    let is_angle = position_unit.dimension == Dimension::NONE;
+    let fits = |own: &&Readings| match is_circle {
+        true => is_angle && own.unit.dimension == Dimension::LENGTH,
+        false => own.unit.dimension == position_unit.dimension,
+    };
+    if let Some(own) = readings.iter().find(|own| !fits(own)) {
+        let named = |place: usize| heading[place].escape_debug();
+        let (what, help) = match is_circle {
+            true => ("an angle and a length", "write `angle (deg)` and `deviation (um)` of the radius"),
+            false => ("both lengths or both angles", "write the units of one axis"),
+        };
+        return refuse(format!("`{}` and `{}` are not {what}", named(position), named(own.place)), help);
     }
-    let is_rotary = position_unit.dimension == Dimension::NONE;
+    let is_rotary = is_angle && !is_circle;
     // In mm or rad; deviations are shown in um or arcsec.
     let coherent = |unit: Unit, number: f64| unit.convert(number, LengthUnit::Millimetre);
     let shown = |deviation: f64| if is_rotary { 3600.0 * deviation.to_degrees() } else { 1e3 * deviation };
@@ -156,7 +165,7 @@ pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
             return Err(failed(reason));
         }
         let target = coherent(position_unit, record.number(position).map_err(failed)?);
-        let at = if is_rotary { target.to_degrees() } else { target };
+        let at = if is_angle { target.to_degrees() } else { target };
         let line = diagonal.map_or(String::new(), |place| record.text(place).into_owned());
         if diagonal.is_some() && line.is_empty() {
             return Err(failed("the diagonal is missing".to_owned()));
@@ -195,7 +204,7 @@ pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
     if lines.is_empty() {
         return refuse("there are no readings".to_owned(), FORM);
     }
-    Ok(Runs { is_rotary, lines })
+    Ok(Runs { is_rotary, is_circle, lines })
 }
 
 /// Splits a heading into its name, in lower case, and the unit in parentheses.

@@ -115,14 +115,14 @@ pub struct Evaluation {
 
 /// Sum of means and standard deviations: weight, index of the position, direction.
 #[derive(Clone, Debug, Default)]
-struct Sum {
-    means: Vec<(f64, usize, usize)>,
-    deviations: Vec<(f64, usize, usize)>,
+pub(super) struct Sum {
+    pub(super) means: Vec<(f64, usize, usize)>,
+    pub(super) deviations: Vec<(f64, usize, usize)>,
 }
 
 impl Sum {
     /// Returns `weight · x̄`.
-    fn mean(weight: f64, position: usize, direction: usize) -> Self {
+    pub(super) fn mean(weight: f64, position: usize, direction: usize) -> Self {
         Self { means: vec![(weight, position, direction)], deviations: Vec::new() }
     }
 
@@ -131,32 +131,32 @@ impl Sum {
         Self { means: Vec::new(), deviations: vec![(weight, position, direction)] }
     }
 
-    fn plus(mut self, other: Self) -> Self {
+    pub(super) fn plus(mut self, other: Self) -> Self {
         self.means.extend(other.means);
         self.deviations.extend(other.deviations);
         self
     }
 
-    fn times(mut self, factor: f64) -> Self {
+    pub(super) fn times(mut self, factor: f64) -> Self {
         self.means.iter_mut().chain(&mut self.deviations).for_each(|(weight, ..)| *weight *= factor);
         self
     }
 }
 
 /// Table of means and standard deviations.
-struct Statistics<'a> {
-    positions: &'a [PositionResult],
-    uncertainty: Option<InstrumentUncertainty>,
+pub(super) struct Statistics<'a> {
+    pub(super) positions: &'a [PositionResult],
+    pub(super) uncertainty: Option<InstrumentUncertainty>,
 }
 
 impl Statistics<'_> {
-    fn approach(&self, position: usize, direction: usize) -> Option<ApproachResult> {
+    pub(super) fn approach(&self, position: usize, direction: usize) -> Option<ApproachResult> {
         let position = &self.positions[position];
         if direction == 0 { position.forward } else { position.reverse }
     }
 
     /// Returns the value of a sum; `None` if a part of it is not known.
-    fn value(&self, sum: &Sum) -> Option<f64> {
+    pub(super) fn value(&self, sum: &Sum) -> Option<f64> {
         let means = sum.means.iter().map(|(weight, i, d)| Some(weight * self.approach(*i, *d)?.mean));
         let deviations = sum
             .deviations
@@ -169,7 +169,7 @@ impl Statistics<'_> {
     ///
     /// A mean of n readings of uncertainty u has `u² / n`, their standard deviation `u² / (n − 1)`;
     /// the two are not correlated. The scale moves each mean in proportion to its position.
-    fn characteristic(&self, sum: &Sum) -> Option<Characteristic> {
+    pub(super) fn characteristic(&self, sum: &Sum) -> Option<Characteristic> {
         let value = self.value(sum)?;
         let uncertainty = self.uncertainty.map(|InstrumentUncertainty { reading, scale }| {
             let mut totals: BTreeMap<(usize, usize), [f64; 2]> = BTreeMap::new();
@@ -191,7 +191,7 @@ impl Statistics<'_> {
     }
 
     /// Returns the sum with the largest value; `None` if one of them is not known.
-    fn largest(&self, sums: impl IntoIterator<Item = Sum>) -> Option<Sum> {
+    pub(super) fn largest(&self, sums: impl IntoIterator<Item = Sum>) -> Option<Sum> {
         let mut found: Option<(f64, Sum)> = None;
         for sum in sums {
             let value = self.value(&sum)?;
@@ -230,8 +230,15 @@ impl Statistics<'_> {
     }
 
     /// Returns `x̄_i↑ − x̄_i↓`, times `sign`.
-    fn reversal(i: usize, sign: f64) -> Sum {
+    fn difference(i: usize, sign: f64) -> Sum {
         Sum::mean(sign, i, 0).plus(Sum::mean(-sign, i, 1))
+    }
+
+    /// Returns the reversal error: the largest difference of the means of the directions.
+    pub(super) fn reversal(&self) -> Option<Characteristic> {
+        let places = 0..self.positions.len();
+        let both = places.flat_map(|i| [Self::difference(i, 1.0), Self::difference(i, -1.0)]);
+        self.largest(both).and_then(|sum| self.characteristic(&sum))
     }
 
     fn bidirectional(&self) -> Option<Bidirectional> {
@@ -241,20 +248,20 @@ impl Statistics<'_> {
             places.clone().map(|i| Sum::mean(0.5, i, 0).plus(Sum::mean(0.5, i, 1))).collect()
         };
         let spread = |i: usize, sign: f64| {
-            Sum::deviation(2.0, i, 0).plus(Sum::deviation(2.0, i, 1)).plus(Self::reversal(i, sign))
+            Sum::deviation(2.0, i, 0).plus(Sum::deviation(2.0, i, 1)).plus(Self::difference(i, sign))
         };
         let repeatability = places.clone().flat_map(|i| {
             [spread(i, 1.0), spread(i, -1.0), Sum::deviation(4.0, i, 0), Sum::deviation(4.0, i, 1)]
         });
-        let reversal = places.clone().flat_map(|i| [Self::reversal(i, 1.0), Self::reversal(i, -1.0)]);
         let share = 1.0 / self.positions.len() as f64;
-        let mean_reversal = places.clone().fold(Sum::default(), |sum, i| sum.plus(Self::reversal(i, share)));
+        let mean_reversal =
+            places.clone().fold(Sum::default(), |sum, i| sum.plus(Self::difference(i, share)));
         Some(Bidirectional {
             accuracy: self.span(both(2.0), both(-2.0)),
             systematic: self.span(both(0.0), both(0.0))?,
             mean: self.span(middle(), middle())?,
             repeatability: self.largest(repeatability).and_then(|sum| self.characteristic(&sum)),
-            reversal: self.characteristic(&self.largest(reversal)?)?,
+            reversal: self.reversal()?,
             mean_reversal: self.characteristic(&mean_reversal)?,
         })
     }
@@ -263,11 +270,17 @@ impl Statistics<'_> {
 impl Evaluation {
     /// Evaluates the deviations at target positions, ascending.
     pub fn new(targets: &[TargetRuns], uncertainty: Option<InstrumentUncertainty>) -> Self {
-        let positions: Vec<PositionResult> = targets.iter().map(PositionResult::new).collect();
+        let Self { positions, .. } = Self::of_positions(targets);
         let statistics = Statistics { positions: &positions, uncertainty };
         let forward = statistics.unidirectional(0);
         let reverse = statistics.unidirectional(1);
         Self { forward, reverse, bidirectional: statistics.bidirectional(), positions }
+    }
+
+    /// Evaluates each position by itself.
+    pub(super) fn of_positions(targets: &[TargetRuns]) -> Self {
+        let positions = targets.iter().map(PositionResult::new).collect();
+        Self { positions, forward: None, reverse: None, bidirectional: None }
     }
 }
 

@@ -1,7 +1,9 @@
-//! `abbe positioning`: evaluates runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6.
+//! `abbe positioning`: evaluates runs of one axis by ISO 230-2, of body diagonals by ISO 230-6, or
+//! of circles by ISO 230-4.
 //!
-//! `evaluation` has the formulas.
+//! `evaluation` has the formulas of lines, `circle` those of circles.
 
+mod circle;
 mod evaluation;
 
 use abbe_spec::option::{ACCEPT, NamedOption, READING_UNCERTAINTY, SCALE_UNCERTAINTY};
@@ -15,6 +17,7 @@ use crate::acceptance::{AcceptanceVerdict, Judged, LimitCheck, ONE_SIDED_95, rea
 use crate::data::{Runs, Source, Table, TargetRuns, runs};
 use abbe_study::{Notes, Result, finite, mistake, options::quantity};
 
+pub use circle::{CircularPath, CircularResult};
 pub use evaluation::{
     ApproachResult, Bidirectional, Characteristic, Evaluation, InstrumentUncertainty, PositionResult,
     Unidirectional,
@@ -54,6 +57,8 @@ pub struct Report {
     pub lines: Vec<PositioningLine>,
     /// Results of all diagonals together; none for an axis.
     pub diagonals: Option<DiagonalResult>,
+    /// Results of a circular test; none for positions.
+    pub circle: Option<CircularResult>,
     /// Verdict by the limits, in `unit`; none without limits.
     pub accepted: Option<AcceptanceVerdict>,
 }
@@ -81,14 +86,14 @@ pub struct DiagonalResult {
 impl Positioning<'_> {
     /// Reads and evaluates the runs.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
-        let Runs { is_rotary, lines } = runs(self.data)?;
+        let Runs { is_rotary, is_circle, lines } = runs(self.data)?;
         let instrument = self.instrument(is_rotary)?;
         let counts = lines.iter().flat_map(|(_, targets)| targets).flat_map(|target| &target.deviations);
         let counts = counts.map(Vec::len).filter(|count| *count > 0);
         let approaches =
             counts.fold([usize::MAX, 0], |[least, most], count| [least.min(count), most.max(count)]);
         let is_axis = lines.iter().all(|(name, _)| name.is_empty());
-        if is_axis && approaches[0] < APPROACHES {
+        if is_axis && !is_circle && approaches[0] < APPROACHES {
             notes.warn(&format!(
                 "ISO 230-2 evaluates {APPROACHES} approaches of each position in each direction; here \
                  there are {}",
@@ -98,9 +103,24 @@ impl Positioning<'_> {
                 }
             ));
         }
+        let circle = |(_, targets): &(String, Vec<TargetRuns>)| {
+            let found = CircularResult::new(targets, instrument.map(|own| own.reading));
+            found.ok_or_else(|| {
+                let message = "there are no readings in half of the circle or more".to_owned();
+                mistake::with_help(
+                    &self.data.name(),
+                    message,
+                    "measure at angles all around, or at 220° and more",
+                )
+            })
+        };
+        let circle = lines.first().filter(|_| is_circle).map(circle).transpose()?;
         let line = |(name, targets): (String, Vec<TargetRuns>)| PositioningLine {
             name,
-            evaluation: Evaluation::new(&targets, instrument),
+            evaluation: match is_circle {
+                true => Evaluation::of_positions(&targets),
+                false => Evaluation::new(&targets, instrument),
+            },
         };
         let lines: Vec<PositioningLine> = lines.into_iter().map(line).collect();
         let mut report = Report {
@@ -109,11 +129,12 @@ impl Positioning<'_> {
                 None => self.data.name(),
             },
             unit: if is_rotary { "arcsec" } else { "um" },
-            position_unit: if is_rotary { "deg" } else { "mm" },
+            position_unit: if is_rotary || is_circle { "deg" } else { "mm" },
             approaches,
             instrument: instrument.map(|InstrumentUncertainty { reading, scale }| [reading, scale]),
             diagonals: (!is_axis).then(|| DiagonalResult::new(&lines)),
             lines,
+            circle,
             accepted: None,
         };
         if let Some(limits) = &self.accept {
@@ -162,6 +183,10 @@ impl Report {
     /// Returns the characteristics by their letters: of an axis in both directions or, if the runs
     /// have one, in that; of diagonals the largest. `None` for one that is not known.
     pub fn figures(&self) -> Vec<(&'static str, Option<Characteristic>)> {
+        if let Some(circle) = &self.circle {
+            let one = circle.forward.or(circle.reverse).map(|path| path.circularity);
+            return vec![("G", circle.circularity.or(one)), ("H", circle.hysteresis)];
+        }
         let first = self.lines.first().map(|line| &line.evaluation);
         let both = first.and_then(|evaluation| evaluation.bidirectional.as_ref());
         match (&self.diagonals, both, first.and_then(|first| first.forward.or(first.reverse))) {
@@ -186,6 +211,7 @@ impl Report {
         let names: Vec<&str> = figures.iter().map(|(name, _)| *name).collect();
         let (dimension, factor, example) = match is_rotary {
             true => (Dimension::NONE, 3600.0_f64.to_degrees(), "E 10 arcsec, B 3 arcsec"),
+            false if self.circle.is_some() => (Dimension::LENGTH, 1e3, "G 10 um, H 3 um"),
             false => (Dimension::LENGTH, 1e3, "E 10 um, B 3 um"),
         };
         let option = ACCEPT.to_string();
@@ -194,8 +220,17 @@ impl Report {
         let check = |(name, limit): (&'static str, f64)| {
             let found = figures.iter().find(|(figure, _)| *figure == name).and_then(|(_, value)| *value);
             let Some(Characteristic { value, uncertainty }) = found else {
-                let message = format!("{name} is not known: a position has a single approach in a direction");
-                return Err(mistake::with_help(&option, message, "approach each position twice or more"));
+                let (why, help) = match self.circle {
+                    Some(_) => (
+                        "an angle has readings of one direction only",
+                        "measure both directions at all angles",
+                    ),
+                    None => (
+                        "a position has a single approach in a direction",
+                        "approach each position twice or more",
+                    ),
+                };
+                return Err(mistake::with_help(&option, format!("{name} is not known: {why}"), help));
             };
             // The expanded uncertainty has k = 2 on both sides.
             let uncertainty = ONE_SIDED_95 * uncertainty.unwrap_or_default() / 2.0;
@@ -206,9 +241,9 @@ impl Report {
     }
 
     /// Returns the mean deviations of an axis at its positions, for a table of a spec: of both
-    /// directions together and of each; `None` for diagonals.
+    /// directions together and of each; `None` for diagonals and circles.
     pub fn table(&self) -> Option<Table> {
-        let [line] = &self.lines[..] else { return None };
+        let ([line], None) = (&self.lines[..], &self.circle) else { return None };
         let rows = line.evaluation.positions.iter().map(|one| {
             let [up, down] = [one.forward, one.reverse].map(|own| own.map(|own| own.mean));
             vec![Some(one.position), one.mean.or(up).or(down), up, down]

@@ -1,4 +1,5 @@
-//! Figures of a positioning test: mean deviations over the positions, with two standard deviations.
+//! Figures of a positioning or circular test: mean deviations over the positions, with two standard
+//! deviations.
 
 use abbe::analysis::sampling::range_of;
 use abbe_metrology::positioning::{ApproachResult, PositionResult, Report};
@@ -15,7 +16,8 @@ const DIRECTIONS: [Direction; 2] =
 pub(crate) fn scenes(report: &Report) -> Vec<Scene> {
     let panel = |positions: &[PositionResult], name: &str| {
         let mut marks = Vec::new();
-        for (name, colour, approach) in DIRECTIONS {
+        for (k, (name, colour, approach)) in DIRECTIONS.into_iter().enumerate() {
+            let name = report.circle.as_ref().map_or(name, |_| ["counterclockwise", "clockwise"][k]);
             let at = |shift: f64| -> Vec<[f64; 2]> {
                 let shifted = |one: &PositionResult| {
                     let own = approach(one)?;
@@ -31,7 +33,8 @@ pub(crate) fn scenes(report: &Report) -> Vec<Scene> {
         let values = marks.iter().flat_map(|mark| mark.places()).map(|[_, value]| value);
         let y = Axis::linear("deviation", report.unit, with_margin(range_of(values), 0.06));
         let range = range_of(positions.iter().map(|one| one.position));
-        let x = Axis::linear("position", report.position_unit, with_margin(range, 0.02));
+        let along = if report.circle.is_some() { "angle" } else { "position" };
+        let x = Axis::linear(along, report.position_unit, with_margin(range, 0.02));
         Panel::plane(280.0, x, y, marks).titled(name.to_owned())
     };
     let panels = report.lines.iter().map(|line| panel(&line.evaluation.positions, &line.name)).collect();

@@ -1,6 +1,8 @@
-//! Positioning test: the characteristics of ISO 230-2 or ISO 230-6.
+//! Positioning test: the characteristics of ISO 230-2, ISO 230-6 or ISO 230-4.
 
-use abbe_metrology::positioning::{Characteristic, PositionResult, PositioningLine, Report, Unidirectional};
+use abbe_metrology::positioning::{
+    Characteristic, CircularPath, CircularResult, PositionResult, PositioningLine, Report, Unidirectional,
+};
 use abbe_spec::option::{READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use abbe_study::number::digits;
 
@@ -10,15 +12,16 @@ use crate::figures::deviations;
 
 /// Describes the characteristics of a positioning test.
 pub fn positioning(report: &Report) -> Document {
-    let table = match &report.lines[..] {
-        [line] if report.diagonals.is_none() => of_axis(line, report.unit),
-        lines => of_diagonals(lines, report.unit),
+    let table = match (&report.lines[..], &report.circle) {
+        (_, Some(circle)) => of_circle(circle, report.unit),
+        ([line], _) if report.diagonals.is_none() => of_axis(line, report.unit),
+        (lines, _) => of_diagonals(lines, report.unit),
     };
     let positions = report.lines.iter().map(|line| positions(report, line));
     let accepted = |verdict| accepted_by(verdict, |value| format!("{} {}", digits(value, 3), report.unit));
     let verdict = report.accepted.as_ref().map(accepted);
     Document {
-        kind: "Positioning test",
+        kind: if report.circle.is_some() { "Circular test" } else { "Positioning test" },
         machine: report.file.clone(),
         headline: verdict.as_ref().map_or_else(|| headline(report), |verdict| verdict.text.clone()),
         is_signed: verdict.is_some(),
@@ -39,11 +42,16 @@ fn headline(report: &Report) -> String {
     let named =
         figures.filter_map(|(name, value)| Some(format!("{name} {} {unit}", digits(value?.value, 3))));
     let mut figures: Vec<String> = named.collect();
-    let is_of_both = report.lines.first().is_some_and(|line| line.evaluation.bidirectional.is_some());
-    let standard = if report.diagonals.is_some() { "ISO 230-6" } else { "ISO 230-2" };
+    let (standard, is_of_both) = match (&report.circle, &report.lines[..]) {
+        (Some(circle), _) => ("ISO 230-4", circle.circularity.is_some()),
+        (None, _) if report.diagonals.is_some() => ("ISO 230-6", true),
+        (None, lines) => {
+            ("ISO 230-2", lines.first().is_some_and(|line| line.evaluation.bidirectional.is_some()))
+        }
+    };
     match figures.first_mut() {
         None => figures.push("no direction has readings at every position".to_owned()),
-        Some(first) if !is_of_both && report.diagonals.is_none() => first.insert_str(0, "one direction: "),
+        Some(first) if !is_of_both => first.insert_str(0, "one direction: "),
         Some(_) => {}
     }
     format!("{} ({standard})", joined(figures))
@@ -56,14 +64,21 @@ fn shown(value: Option<Characteristic>) -> String {
     digits(value, 3) + &spread
 }
 
+fn plain(value: f64) -> Option<Characteristic> {
+    Some(Characteristic { value, uncertainty: None })
+}
+
+fn row(name: &str, both: Option<Characteristic>, sides: [Option<Characteristic>; 2]) -> [String; 4] {
+    let [up, down] = sides.map(shown);
+    [name.to_owned(), shown(both), up, down]
+}
+
 fn of_axis(PositioningLine { evaluation, .. }: &PositioningLine, unit: &str) -> Table {
     let both = evaluation.bidirectional.as_ref();
     let sides = [evaluation.forward.as_ref(), evaluation.reverse.as_ref()];
-    let row =
-        |name: &str, both: Option<Characteristic>, one: fn(&Unidirectional) -> Option<Characteristic>| {
-            let [up, down] = sides.map(|side| shown(side.and_then(one)));
-            [name.to_owned(), shown(both), up, down]
-        };
+    let row = |name: &str, both, one: fn(&Unidirectional) -> Option<Characteristic>| {
+        row(name, both, sides.map(|side| side.and_then(one)))
+    };
     let none = |_: &Unidirectional| None;
     Table::new("", [unit, ">bidirectional", ">forward", ">reverse"]).rows([
         row("A   accuracy", both.and_then(|both| both.accuracy), |side| side.accuracy),
@@ -89,6 +104,21 @@ fn of_diagonals(lines: &[PositioningLine], unit: &str) -> Table {
     }))
 }
 
+fn of_circle(circle: &CircularResult, unit: &str) -> Table {
+    let row = |name: &str, both, one: fn(&CircularPath) -> Option<Characteristic>| {
+        row(name, both, [&circle.forward, &circle.reverse].map(|side| side.as_ref().and_then(one)))
+    };
+    Table::new("", [unit, ">both", ">counterclockwise", ">clockwise"]).rows([
+        row("G   circular deviation", circle.circularity, |one| Some(one.circularity)),
+        row("H   circular hysteresis", circle.hysteresis, |_| None),
+        row("D   mean radial deviation", circle.mean, |_| None),
+        row("F   largest radial deviation", None, |one| Some(one.largest)),
+        row("F   smallest radial deviation", None, |one| Some(one.smallest)),
+        row("asynchronous error motion", None, |one| plain(one.asynchronous?)),
+        row("total error motion", None, |one| plain(one.total?)),
+    ])
+}
+
 /// Tabulates every position of an axis or of a diagonal.
 fn positions(report: &Report, PositioningLine { name, evaluation }: &PositioningLine) -> Table {
     let of = if name.is_empty() { String::new() } else { format!(" of diagonal {name}") };
@@ -112,6 +142,10 @@ fn positions(report: &Report, PositioningLine { name, evaluation }: &Positioning
 
 /// Returns why characteristics are missing: approaches in one direction, or only one at a position.
 fn missing(report: &Report) -> Option<String> {
+    if let Some(CircularResult { circularity, hysteresis, .. }) = &report.circle {
+        let is_missing = circularity.is_some() && hysteresis.is_none();
+        return is_missing.then(|| "the directions have other angles: H needs both at each".to_owned());
+    }
     let positions = || report.lines.iter().flat_map(|line| &line.evaluation.positions);
     let [forward, reverse] =
         [positions().any(|one| one.forward.is_some()), positions().any(|one| one.reverse.is_some())];
@@ -149,13 +183,19 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let mut facts = vec![(
         "Runs",
         format!(
-            "{} target positions from {} to {} {}, {} {} in each direction",
+            "{} {} from {} to {} {}, {} {} in each direction",
             range(positions),
+            if report.circle.is_some() { "angles" } else { "target positions" },
             digits(least, 6),
             digits(most, 6),
             report.position_unit,
             range(report.approaches),
-            if report.approaches == [1, 1] { "approach" } else { "approaches" }
+            match (report.circle.is_some(), report.approaches == [1, 1]) {
+                (true, true) => "reading",
+                (true, false) => "readings",
+                (false, true) => "approach",
+                (false, false) => "approaches",
+            }
         ),
     )];
     facts.extend(missing(report).map(|missing| ("Missing", missing)));

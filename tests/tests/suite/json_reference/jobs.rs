@@ -164,6 +164,11 @@ fn positioned() -> Vec<(&'static str, Value)> {
     vec![
         report("axis.csv", "position (mm),1+ (um),1- (um),2+ (um)\n0,1,2,1\n9,3,4,5\n", Some("1um")),
         report("diagonals.csv", "diagonal,position (mm),1+ (um),1- (um)\nPPP,0,1,2\nPPP,9,3,4\n", None),
+        report(
+            "circle.csv",
+            "angle (deg),1+ (um),2+ (um),1- (um)\n0,1,2,0\n100,3,2,1\n200,4,5,2\n300,1,2,0\n",
+            None,
+        ),
         report("up.csv", "position (deg),1+ (arcsec)\n0,1\n9,3\n", None),
     ]
 }
