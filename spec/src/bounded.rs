@@ -1,22 +1,13 @@
-//! Bounded reading of files: limits of size and of time.
+//! Bounded reading of files: limits of size.
 
 use std::collections::BTreeMap;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Cursor, ErrorKind, Read};
 use std::path::Path;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
-use std::thread;
-use std::time::Duration;
 
 use crate::diagnostic::{Diagnostics, nearest_file};
 use crate::mistake;
-
-/// Maximum time without data from a pipe.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-/// Chunk size for reading a pipe, in bytes.
-const PIECE: usize = 1 << 16;
 
 /// Contents of files, by path.
 pub type Contents = BTreeMap<String, String>;
@@ -65,69 +56,25 @@ impl From<UnreadableFile> for io::Error {
     }
 }
 
-/// A file open for reading. A file that cannot be accepted gives an error that contains an
-/// [`UnreadableFile`].
-#[derive(Debug)]
+/// A file open for reading, or content that is at hand. What cannot be accepted gives an error that
+/// contains an [`UnreadableFile`].
 pub struct Bounded {
-    source: Source,
+    source: Box<dyn Read + Send>,
     most: u64,
     left: u64,
-}
-
-#[derive(Debug)]
-enum Source {
-    File(File),
-    /// Content that is at hand.
-    Text(Cursor<String>),
-    /// A pipe or device, read by a separate thread so that waiting can time out.
-    Pipe {
-        pieces: Receiver<io::Result<Vec<u8>>>,
-        piece: Vec<u8>,
-        at: usize,
-        patience: Duration,
-    },
 }
 
 impl Bounded {
     /// Opens a file; reading more than `most` bytes is an error.
     pub fn open(path: &Path, most: u64) -> io::Result<Self> {
-        Self::open_patiently(path, most, PATIENCE)
-    }
-
-    fn open_patiently(path: &Path, most: u64, patience: Duration) -> io::Result<Self> {
         let metadata = fs::metadata(path).map_err(|error| or_nearest(error, path))?;
         if metadata.is_dir() {
             return Err(UnreadableFile::new("this is a directory, not a file", "name a file in it").into());
         }
-        let source = if metadata.is_file() {
-            let file = File::open(path)?;
-            if metadata.len() > most {
-                return Err(too_large(most).into());
-            }
-            Source::File(file)
-        } else {
-            let (sender, pieces) = sync_channel(4);
-            let path = path.to_owned();
-            thread::spawn(move || {
-                let mut file = match File::open(path) {
-                    Ok(file) => file,
-                    Err(error) => return drop(sender.send(Err(error))),
-                };
-                loop {
-                    let mut piece = vec![0; PIECE];
-                    let read = file.read(&mut piece).map(|length| {
-                        piece.truncate(length);
-                        piece
-                    });
-                    let ended = !matches!(&read, Ok(piece) if !piece.is_empty());
-                    if sender.send(read).is_err() || ended {
-                        return;
-                    }
-                }
-            });
-            Source::Pipe { pieces, piece: Vec::new(), at: 0, patience }
-        };
-        Ok(Self { source, most, left: most })
+        if metadata.len() > most {
+            return Err(too_large(most).into());
+        }
+        Ok(Self { source: Box::new(File::open(path)?), most, left: most })
     }
 
     /// Finds a file among contents, and opens none; reading more than `most` bytes is an error.
@@ -136,7 +83,7 @@ impl Bounded {
             let message = "this file is not among those that come with the text that names it";
             UnreadableFile::new(message, "supply its contents with the text")
         })?;
-        Ok(Self { source: Source::Text(Cursor::new(text.clone())), most, left: most })
+        Ok(Self { source: Box::new(Cursor::new(text.clone())), most, left: most })
     }
 
     /// Reads a whole file of at most `most` bytes.
@@ -149,28 +96,7 @@ impl Bounded {
 
 impl Read for Bounded {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let length = match &mut self.source {
-            Source::File(file) => file.read(buffer)?,
-            Source::Text(text) => text.read(buffer)?,
-            Source::Pipe { pieces, piece, at, patience } => {
-                if *at == piece.len() {
-                    (*piece, *at) = match pieces.recv_timeout(*patience) {
-                        Ok(piece) => (piece?, 0),
-                        Err(RecvTimeoutError::Disconnected) => return Ok(0),
-                        Err(RecvTimeoutError::Timeout) => {
-                            let seconds = patience.as_secs();
-                            let message = format!("no data from this pipe for {seconds} s");
-                            let help = "start the program that writes to it, or give the path of a file";
-                            return Err(UnreadableFile::new(message, help).into());
-                        }
-                    };
-                }
-                let length = buffer.len().min(piece.len() - *at);
-                buffer[..length].copy_from_slice(&piece[*at..*at + length]);
-                *at += length;
-                length
-            }
-        };
+        let length = self.source.read(buffer)?;
         self.left = self.left.checked_sub(length as u64).ok_or_else(|| too_large(self.most))?;
         Ok(length)
     }
