@@ -22,8 +22,77 @@ static void at(double share, double q[PPS_VARIABLES])
     }
 }
 
+/* Along a path, and from any start to corrections that stand: bounds hold in every cycle, and corrections stop where
+ * they are wanted without going beyond. Returns the line of what is wrong. */
+static int approaches(void)
+{
+    static const double patient[PPS_INPUTS] = { 70.0, 0.0, 850.0 };
+    double any[PPS_VARIABLES];
+    double acceleration[PPS_VARIABLES];
+    double reached[PPS_VARIABLES] = { 0.0 };
+    double step[PPS_VARIABLES] = { 0.0 };
+    double wanted[PPS_VARIABLES] = { 0.0 };
+    for (int j = 0; j < PPS_VARIABLES; j++) {
+        any[j] = HUGE_VAL;
+        acceleration[j] = pps_change[j] / (7.0 + 5.0 * j);
+    }
+    for (int k = 0; k < 4000; k++) {
+        double q[PPS_VARIABLES];
+        double drives[PPS_VARIABLES];
+        double pose[6];
+        double after[6];
+        double from[PPS_VARIABLES];
+        double before[PPS_VARIABLES];
+        memcpy(from, reached, sizeof from);
+        memcpy(before, step, sizeof before);
+        /* The path jumps three times, and stands in the last quarter. */
+        at(floor(k / 1000.0) * 0.37 + fmin(k, 3000) / 40000.0, q);
+        REQUIRE(pps_compensated(q, pps_parameters, patient, reached, any, pps_largest, pps_whole_pose, drives, wanted, pose,
+                                after) == PPS_OK);
+        approach(q, wanted, pps_change, acceleration, reached, step);
+        for (int j = 0; j < PPS_VARIABLES; j++) {
+            REQUIRE(fabs(reached[j] - from[j]) <= pps_change[j] * (1.0 + 1e-9));
+            REQUIRE(fabs(step[j] - before[j]) <= acceleration[j] * (1.0 + 1e-9));
+            /* The path stands: no correction turns round. */
+            REQUIRE(k <= 3300 || step[j] * (wanted[j] - from[j]) >= -1e-18);
+        }
+    }
+    for (int j = 0; j < PPS_VARIABLES; j++) {
+        REQUIRE(fabs(wanted[j] - reached[j]) < 1e-6 * pps_change[j]);
+    }
+    /* Any distance, from rest. */
+    for (int k = 1; k < 500; k++) {
+        double q[PPS_VARIABLES];
+        double steps[PPS_VARIABLES] = { 0.0 };
+        double now[PPS_VARIABLES] = { 0.0 };
+        double goal[PPS_VARIABLES];
+        int cycles = 0;
+        at(0.0, q);
+        for (int j = 0; j < PPS_VARIABLES; j++) {
+            goal[j] = ((j % 2) == 0 ? 0.013 : -0.013) * k * pps_change[j];
+        }
+        for (; cycles < 1000; cycles++) {
+            double before[PPS_VARIABLES];
+            memcpy(before, steps, sizeof before);
+            approach(q, goal, pps_change, acceleration, now, steps);
+            for (int j = 0; j < PPS_VARIABLES; j++) {
+                REQUIRE(fabs(steps[j] - before[j]) <= acceleration[j] * (1.0 + 1e-9));
+                REQUIRE(fabs(now[j]) <= fabs(goal[j]) + 1e-9 * pps_change[j]);
+            }
+        }
+        for (int j = 0; j < PPS_VARIABLES; j++) {
+            REQUIRE(fabs(now[j] - goal[j]) < 1e-9 * pps_change[j]);
+        }
+    }
+    return 0;
+}
+
 int main(void)
 {
+    const int wrong = approaches();
+    if (wrong != 0) {
+        return wrong;
+    }
     static const double far[PPS_VARIABLES] = { 20.0, 20.0, 20.0, 0.05, 0.01, 0.01 };
     static struct controller controller;
     double standing[PPS_VARIABLES];
