@@ -156,8 +156,7 @@ impl Controls {
     pub(crate) fn points<T: Number>(&self, values: &[T; QUADRATIC]) -> [T; MOST] {
         let [first, last, third, fourth, fifth, sixth] = *values;
         let polar = |middle: T, a: T, b: T| {
-            let halves = a.add(b).mul(T::known(&known(-0.5)));
-            middle.mul(T::known(&known(2.0))).add(halves)
+            middle.mul(T::known(&known(2.0))).add(a.add(b).mul(T::known(&known(-0.5))))
         };
         match self.rule {
             Rule::Same => [first, last, third, fourth, fifth],

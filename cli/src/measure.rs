@@ -88,7 +88,6 @@ fn outcome(arguments: &Measure, spec: &Spec, map: &Map, report: &Report) -> Resu
         (_, None) => "--out DIR for a page and the errors of each row, --full for all figures of ISO 9283",
         _ => "--full for all figures of ISO 9283",
     };
-    let document = views::measurement(spec, map, report);
-    let text = arguments.common.showing.answer(report, document, next)?;
+    let text = arguments.common.showing.answer(report, views::measurement(spec, map, report), next)?;
     Ok(Outcome::checked(text, accepted))
 }

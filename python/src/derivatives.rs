@@ -54,8 +54,7 @@ impl Machine {
         for index in 0..given.lead.iter().product() {
             py.check_signals()?;
             let q = joints.at(index, description.variables.len());
-            let u = inputs.at(index, description.inputs.len());
-            let arguments = [q, &self.parameters, u];
+            let arguments = [q, &self.parameters, inputs.at(index, description.inputs.len())];
             let arguments = &arguments[..function.signature().arguments.len()];
             let found = guarded(|| Ok(self.interpreter.parameter_derivatives(function, arguments)))?;
             let found = found.map_err(|error| {

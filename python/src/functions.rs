@@ -99,8 +99,7 @@ impl Machine {
         };
         let mut written = output_array(&array, &shape)?;
         let written = written.as_slice_mut()?;
-        let s = Argument { values: &self.parameters, each: false };
-        let mut arguments = vec![given.argument()?, s];
+        let mut arguments = vec![given.argument()?, Argument { values: &self.parameters, each: false }];
         arguments.extend(third.as_ref().map(ArgumentValues::argument).transpose()?);
         let batch = Batch { interpreter: &self.interpreter, function, layout, arguments };
         let count = lead.iter().try_fold(1_usize, |count, length| count.checked_mul(*length));

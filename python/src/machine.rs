@@ -87,8 +87,7 @@ impl Machine {
 
     /// Reads the changes, one by one, for a job.
     pub(crate) fn changes(&self) -> Result<Vec<Changes>> {
-        let spec = &self.unchanged.spec;
-        self.changes.iter().map(|change| change.read(spec)).collect()
+        self.changes.iter().map(|change| change.read(&self.unchanged.spec)).collect()
     }
 
     /// Returns the text of the spec without changes.

@@ -130,8 +130,7 @@ impl ToolPointDeviation {
 
 /// Returns some of these configurations, evenly chosen.
 fn some(all: &[(&[f64], &[f64])]) -> impl Iterator<Item = (Vec<f64>, Vec<f64>)> {
-    let step = all.len().div_ceil(SAMPLES).max(1);
-    all.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()))
+    all.iter().step_by(all.len().div_ceil(SAMPLES).max(1)).map(|(q, u)| (q.to_vec(), u.to_vec()))
 }
 
 /// Returns a Halton sequence of configurations within the ranges. Names without a range stay

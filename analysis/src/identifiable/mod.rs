@@ -114,8 +114,7 @@ pub fn identifiable(
                     // Lengths in arm lengths, so that position and orientation rows are comparable.
                     let value = if k < 3 { column[k] / arm } else { column[k] };
                     if !value.is_finite() {
-                        let error = Error::NotFinite { quantity: Quantity::Jacobian, index: j };
-                        return Err(at(index, error));
+                        return Err(at(index, Error::NotFinite { quantity: Quantity::Jacobian, index: j }));
                     }
                     stack[(above + rows * i + k, j)] = value;
                 }

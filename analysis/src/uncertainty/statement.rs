@@ -64,8 +64,7 @@ pub(super) fn degrees_of_freedom(random: &[RandomError], covariance: [[f64; 3]; 
         let along = one.standard_parts().map(|part| principal.components(part));
         let square =
             |along: [f64; 3]| along.iter().zip(weights).map(|(u, weight)| weight * u * u).sum::<f64>();
-        let square = along.map(square).sum::<f64>();
-        (square, one.degrees_of_freedom)
+        (along.map(square).sum::<f64>(), one.degrees_of_freedom)
     });
     [row(0), row(1), row(2), cautious(&norm.collect::<Vec<_>>())]
 }

@@ -189,8 +189,7 @@ impl EvaluatedModel<'_> {
         let tool = self
             .errors(observation)
             .and_then(|()| {
-                let base = Frame::new(&station.pose, self.displaced[0].by(&self.base));
-                self.frames.push(base);
+                self.frames.push(Frame::new(&station.pose, self.displaced[0].by(&self.base)));
                 if has_loops { self.close(observation) } else { self.branches(observation) }
             })
             .map_err(|error| Failure::Observation { line: observation.line, error })?;

@@ -37,8 +37,7 @@ fn closed_form(pairs: &[(Pose, Pose)]) -> Option<[Pose; 2]> {
         k += rotation(measured).kronecker(&rotation(tool));
     }
     let eigen = symmetric_eigen(k.transpose() * k)?;
-    let first = eigen.eigenvalues.imax();
-    let m: SVector<f64, 9> = eigen.eigenvectors.column(first).into();
+    let m: SVector<f64, 9> = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into();
     let b = k * m;
     // The sign of the singular vectors is that of a proper rotation.
     let as_rotation = |v: SVector<f64, 9>| {

@@ -172,8 +172,7 @@ impl<'l> EquivalentForms<'l> {
         for (i, columns) in std::iter::zip(1.., columns) {
             let rotations = [Component::Spin, Component::Roll, Component::Pitch];
             for (component, moment) in std::iter::zip(rotations, columns.moments) {
-                let axis = identity.axes[motion(component).1];
-                self.velocity(graph, i, [zero, axis], moment);
+                self.velocity(graph, i, [zero, identity.axes[motion(component).1]], moment);
             }
         }
     }

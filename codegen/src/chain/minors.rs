@@ -44,8 +44,7 @@ pub(super) fn solve(graph: &mut Graph, rows: &[Vec<Node>], b: &[Node]) -> Vec<No
     let determinant = minors[all & !(1 << count)];
     let unknown = |j: usize| {
         // b stands behind the columns that follow x_j's.
-        let minor = minors[all & !(1 << j)];
-        let quotient = graph.div(minor, determinant);
+        let quotient = graph.div(minors[all & !(1 << j)], determinant);
         if (count - 1 - j).is_multiple_of(2) { quotient } else { graph.neg(quotient) }
     };
     (0..count).map(unknown).collect()

@@ -47,8 +47,7 @@ impl<'a> RealChain<'a> {
     /// always zero.
     pub(super) fn poses(&self, graph: &mut Graph) -> Vec<Frame> {
         let mut poses = self.poses_below(graph, None);
-        let before = poses[self.spec.tool_frame];
-        poses.push(self.behind(graph, before, self.spec.frames.len()));
+        poses.push(self.behind(graph, poses[self.spec.tool_frame], self.spec.frames.len()));
         poses
     }
 
@@ -222,8 +221,7 @@ impl<'a> RealChain<'a> {
         let at_frame = self.causes.errors.iter().filter(|caused| caused.frame == frame);
         let (of_base, others): (Vec<_>, Vec<_>) = at_frame.partition(|caused| caused.of_base.is_some());
         let located = of_base.into_iter().chain(others).filter_map(|caused| {
-            let magnitude = self.magnitudes[caused.source];
-            let errors = caused.errors.map(|error| graph.mul(magnitude, error));
+            let errors = caused.errors.map(|error| graph.mul(self.magnitudes[caused.source], error));
             let place = caused.place.filter(|_| errors != [zero; 6])?;
             let Some(of_base) = caused.of_base else { return Some((place, errors)) };
             let identity = graph.identity();

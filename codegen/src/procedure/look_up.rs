@@ -31,8 +31,7 @@ pub fn look_up(table: &LookupTable<'_>, scale: f64, documentation: String) -> Pr
             b.set_whole(piece, Whole::Nearest(starts.at(piece)));
             for step in (0..table.steps).rev() {
                 let next: Index = piece + (1_usize << step);
-                let is_beyond = x.get().exceeds(knots.at(next.clone()));
-                b.when(is_beyond, |b| b.set_whole(piece, Whole::Index(next)));
+                b.when(x.get().exceeds(knots.at(next.clone())), |b| b.set_whole(piece, Whole::Index(next)));
             }
             b.set(t, x.get() - knots.at(piece));
         }

@@ -164,8 +164,7 @@ impl<'w> Writer<'w> {
     /// negatives.
     fn name(&self, first: Node, node: Node, negative: bool) -> Option<String> {
         let sign = self.selection.member(first).negative;
-        let own = Signed { node, negative: sign };
-        let equal = std::iter::once(own).chain(self.graph.equal(first));
+        let equal = std::iter::once(Signed { node, negative: sign }).chain(self.graph.equal(first));
         let mut nodes = equal.filter_map(|other| match (other.negative != sign) == negative {
             true => Some(other.node),
             false => self.graph.find(Op::Neg(other.node)),

@@ -194,8 +194,7 @@ impl Reference {
             nominal[..=i].iter().fold(Pose::IDENTITY, |pose, link| pose.then(&link.transform)).position();
         let mut point = self.point;
         axes.slides[..=k].iter().for_each(|slide| point[slide.axis] += q[slide.variable]);
-        let swing = cross([a, b, c], subtract(point, frame));
-        let [x, y, z] = add([x, y, z], swing);
+        let [x, y, z] = add([x, y, z], cross([a, b, c], subtract(point, frame)));
         Ok([x, y, z, a, b, c])
     }
 }

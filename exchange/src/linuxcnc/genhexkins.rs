@@ -105,7 +105,6 @@ fn ends(machine: &RealMachine, closed: &Loop) -> Option<[[f64; 3]; 2]> {
         let common = platform.iter().zip(&carrier).take_while(|(one, other)| one == other).count();
         let tool =
             pose(&carrier[common..]).filter(|_| !moves(&spec.tool))?.then(&machine.pose_at_zero(&spec.tool));
-        let platform = pose(&platform[common..])?.position();
-        Some([pose(base)?.position(), tool.inverse().apply(platform)])
+        Some([pose(base)?.position(), tool.inverse().apply(pose(&platform[common..])?.position())])
     })
 }

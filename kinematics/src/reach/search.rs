@@ -130,8 +130,7 @@ impl Search<'_> {
             if active.is_empty() {
                 return None;
             }
-            let reduced = here.jacobian.select_columns(&active);
-            let step = damped_step(reduced, &here.residual, damping)?;
+            let step = damped_step(here.jacobian.select_columns(&active), &here.residual, damping)?;
             let mut position = 0;
             let before = active.len();
             active.retain(|&j| {

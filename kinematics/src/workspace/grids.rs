@@ -23,8 +23,7 @@ use crate::{Configuration, ReachError, SumLimits, Target, configuration::in_rang
 /// Returns [`Error::Count`] if an axis has an invalid index.
 pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<impl Workspace + use<>, Error> {
     let description = manipulator.description();
-    let indices = axes.iter().map(|axis| axis.index);
-    in_range(indices, Quantity::Variables, description.variables.len())?;
+    in_range(axes.iter().map(|axis| axis.index), Quantity::Variables, description.variables.len())?;
     let named = |i: &usize| axes.iter().any(|axis| axis.index == *i);
     let others: Vec<usize> = (0..description.variables.len()).rev().filter(|i| !named(i)).collect();
     let (axes, sums) = (axes.to_vec(), SumLimits::new(description, &others));
@@ -158,8 +157,7 @@ pub fn presented_volume<'a>(
     sampling::arm_length(manipulator, &home.s)?;
     let count = combinations(&tool_points).saturating_mul(combinations(&approaches));
     let fill = move |index: usize, configuration: &mut Configuration| {
-        let tool_point = combine(index, &approaches, &mut configuration.q);
-        combine(tool_point, &tool_points, &mut configuration.s);
+        combine(combine(index, &approaches, &mut configuration.q), &tool_points, &mut configuration.s);
         let Configuration { q, s, .. } = &*configuration;
         configuration.q = inverse(manipulator, s, q, &solved, &Target::Point(point))?;
         Ok(())
@@ -183,8 +181,7 @@ pub fn with_inputs<'a>(
     workspace: Box<dyn Workspace + 'a>,
     inputs: Vec<Axis>,
 ) -> Result<WithInputs<'a>, Error> {
-    let indices = inputs.iter().map(|axis| axis.index);
-    in_range(indices, Quantity::Inputs, manipulator.description().inputs.len())?;
+    in_range(inputs.iter().map(|axis| axis.index), Quantity::Inputs, manipulator.description().inputs.len())?;
     Ok(WithInputs { workspace, inputs })
 }
 

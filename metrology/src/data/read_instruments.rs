@@ -77,8 +77,7 @@ fn instrument(
     section.check_names(&known);
     let name = section.required("name").and_then(|item| item.string());
     if kind.name == CAMERA.name {
-        let setup = setup(section, all)?;
-        return camera(section, name?, setup, all);
+        return camera(section, name?, setup(section, all)?, all);
     }
     if all.camera.is_some() {
         let help = "describe the other instruments in a map of their own";
@@ -128,8 +127,7 @@ fn instrument(
         Some(item) => {
             let [lower, upper] = item.quantities("the smallest and the largest reading", dimension)?;
             if lower >= upper {
-                let help = "write the smallest reading first";
-                return item.refuse("the ends of `range` are reversed", help);
+                return item.refuse("the ends of `range` are reversed", "write the smallest reading first");
             }
             Some([lower, upper])
         }

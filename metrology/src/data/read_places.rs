@@ -269,8 +269,7 @@ fn distance(section: &Section<'_>, all: &Instruments) -> Option<KnownDistance> {
     let value = value?;
     let length = value.quantity(Dimension::LENGTH)?;
     if length <= 0.0 {
-        let help = "write a length such as `500 mm`";
-        return value.refuse("a distance must be positive", help);
+        return value.refuse("a distance must be positive", "write a length such as `500 mm`");
     }
     let uncertainty = positive(&uncertainty?, Dimension::LENGTH)?;
     Some(KnownDistance { fixtures: [a, b], length, uncertainty })

@@ -134,8 +134,7 @@ impl File<'_, '_, '_> {
             Change::ToolInverted | Change::BaseInverted => self.inverse(&of)?,
             _ => "origin = { xyz = [0, 0, 0] }".to_owned(),
         };
-        let span = whole(&of);
-        self.edits.replace(span, new);
+        self.edits.replace(whole(&of), new);
         Some(())
     }
 

@@ -50,8 +50,7 @@ pub(super) fn map(candidate: &Candidate, spec: &Spec, columns: &Columns) -> (Str
     let angle = interpretation.layout.is_oriented().then(|| quoted("unknown"));
     let data = TableText::default().text("uncertainty", "unknown").optional("angle_uncertainty", angle);
     let joints = TableText::with_header("\n[joints]").then(joints.keys(interpretation, spec, columns));
-    let measured = measured_table(interpretation, columns);
-    text += &data.text("base", base).then(joints).then(measured).to_string();
+    text += &data.text("base", base).then(joints).then(measured_table(interpretation, columns)).to_string();
     text += &station.map(|pose| placed("\n[[station]]", pose, spec)).unwrap_or_default().to_string();
     text += &placement.unwrap_or_default().to_string();
     (text, of_spec)

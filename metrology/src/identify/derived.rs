@@ -118,8 +118,7 @@ pub(super) fn with_columns<'d>(
     let order = in_order(&data.observations);
     let declared = spec.inputs.len() - derived.len();
     let with_zeros = |row: &mut Observation| {
-        let nothing = derived.iter().map(|_| 0.0);
-        row.u = row.u.iter().copied().chain(nothing).collect::<Vec<f64>>().into();
+        row.u = row.u.iter().copied().chain(derived.iter().map(|_| 0.0)).collect::<Vec<f64>>().into();
     };
     data.observations.iter_mut().for_each(|row| change_with_reference(row, with_zeros));
     // One column at a time, so that a million rows need memory for one column only.

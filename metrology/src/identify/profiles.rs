@@ -194,8 +194,7 @@ impl FoundProfiles {
         let mut profiled = spec.clone();
         for one in &self.joints {
             let table = one.table.table(table_name(spec, &one.joint), spec.length);
-            let dimension = table.dimensions[0];
-            let joint = Expression::from_symbol(Symbol::Variable(one.variable), dimension);
+            let joint = Expression::from_symbol(Symbol::Variable(one.variable), table.dimensions[0]);
             let error = joint.looked_up(profiled.tables.len() as u16, &table);
             profiled.tables.push(table.into());
             let (number, cause) = (ChainNumber::Joint(one.variable), DeviationCause::Error(error));

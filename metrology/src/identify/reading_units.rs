@@ -27,8 +27,7 @@ pub(super) fn check_reading_units(setup: &Setup, map: &Map, data: &Data) -> Resu
     let pairs = pairs(setup, data).about(&data.file)?;
     let metres = setup.description.length.in_metres();
     for instrument in &all.list {
-        let own = &pairs[instrument.observables.start];
-        let Some(ratio) = ratio(setup, instrument, own) else { continue };
+        let Some(ratio) = ratio(setup, instrument, &pairs[instrument.observables.start]) else { continue };
         if (PLAUSIBLE[0]..PLAUSIBLE[1]).contains(&ratio) {
             continue;
         }

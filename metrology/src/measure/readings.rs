@@ -119,8 +119,7 @@ fn differences(model: &Model, rows: &[Observation]) -> Result<Vec<Vec<Option<f64
     let mut at = model.at(&[]);
     let difference = |row: &Observation| {
         let Measurement::Readings(readings) = &row.measured else { return Ok(Vec::new()) };
-        let values = at.values(row)?;
-        Ok(readings.iter().zip(values).map(|(reading, value)| Some((*reading)? - value)).collect())
+        Ok(readings.iter().zip(at.values(row)?).map(|(reading, value)| Some((*reading)? - value)).collect())
     };
     rows.iter().map(difference).collect()
 }

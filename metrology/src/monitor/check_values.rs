@@ -276,8 +276,7 @@ fn means(model: &Model, visits: &Visits, common: &[Option<usize>]) -> Result<Vec
         let deviations = at.deviations(&row)?;
         let mean = &mut means[number];
         if mean.is_empty() {
-            let point = at.pose(&row)?.position();
-            mean.resize(deviations.len(), Residual::new(&row, &row.q, point, [0.0; 3]));
+            mean.resize(deviations.len(), Residual::new(&row, &row.q, at.pose(&row)?.position(), [0.0; 3]));
         }
         // Deviations are predicted minus measured.
         let share = -1.0 / f64::from(counts[configuration]);

@@ -287,8 +287,7 @@ impl Plan {
     fn inputs(&self, rows: &[Observation]) -> Vec<Input> {
         let inputs = self.machine.spec.inputs.iter().enumerate().filter(|(_, input)| has_range(input));
         let inputs = inputs.map(|(i, input)| {
-            let values = rows.iter().map(|row| row.u[i]);
-            let between = range_of(values);
+            let between = range_of(rows.iter().map(|row| row.u[i]));
             Input { name: input.name.clone(), unit: input.unit.clone(), between }
         });
         inputs.collect()

@@ -165,8 +165,7 @@ impl Simulate {
                 notes.go_on()?;
             }
             let observation = simulated.row(i, &planned.row(i, map)).map_err(fail)?;
-            let ideal = at.pose(&observation).map_err(fail)?.position();
-            let numbers = map.numbers(&observation, ideal, true);
+            let numbers = map.numbers(&observation, at.pose(&observation).map_err(fail)?.position(), true);
             let numbers = finite(format!("{file}: {}", place(observation.line)), numbers)?;
             let label = map.stations.column.is_some();
             let label = label.then(|| stations.get(observation.station as usize).map_or("", |name| name));

@@ -26,8 +26,7 @@ pub(crate) fn scenes(report: &Report) -> Vec<Scene> {
         let caption = format!("Dots: error at every check minus its mean.{more}");
         scenes.push(Scene::new("Charts nearest to their limits", own.len().min(3), own).captioned(caption));
     }
-    let left = dots(&report.left.values, Colour::INK, report);
-    let panel = panel(240.0, "norm", "", vec![left], report);
+    let panel = panel(240.0, "norm", "", vec![dots(&report.left.values, Colour::INK, report)], report);
     let caption = "Norm of the change from earlier checks, relative to the uncertainty of the \
         instrument; 1 is the usual scatter.";
     scenes.push(Scene::new("Residual change", 1, vec![panel]).captioned(caption));
@@ -69,8 +68,7 @@ fn changed(finding: &Finding, report: &Report) -> Scene {
     let radius = if report.times.len() > 300 { 1.6 } else { 2.4 };
     let mut marks = vec![Mark::points(Colour::BAR, radius, others).named("error at every check")];
     if !since.is_empty() {
-        let name = "95 % interval for the time of change";
-        marks.push(Mark::points(Colour::INK, radius, since).named(name));
+        marks.push(Mark::points(Colour::INK, radius, since).named("95 % interval for the time of change"));
     }
     marks.push(Mark::line(CHANGED, 2.5, column(1)).named("best-fitting change"));
     let title = format!("Detected change: {}", finding.name);

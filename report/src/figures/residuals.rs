@@ -177,8 +177,7 @@ impl Residuals<'_> {
             places.retain(|[_, error]| *error <= top);
             Mark::points(colour, radius, places).faded(opacity).named(name)
         });
-        let y = Axis::linear(reach.title("error"), "mm", [0.0, top]);
-        Panel::plane(HEIGHT, x, y, marks.collect())
+        Panel::plane(HEIGHT, x, Axis::linear(reach.title("error"), "mm", [0.0, top]), marks.collect())
     }
 
     fn histograms(&self) -> Scene {

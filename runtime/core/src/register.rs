@@ -196,8 +196,7 @@ impl<R: Register> Mask<R> {
     /// Selects `yes` in the lanes that are set, `no` in the others.
     #[inline(always)]
     pub fn select(self, yes: Lanes<R>, no: Lanes<R>) -> Lanes<R> {
-        let change = R::and(R::xor(yes.0, no.0), self.0);
-        Lanes(R::xor(no.0, change))
+        Lanes(R::xor(no.0, R::and(R::xor(yes.0, no.0), self.0)))
     }
 
     /// Returns whether any lane is set.

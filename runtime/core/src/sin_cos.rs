@@ -152,8 +152,7 @@ pub(crate) fn near<T: Real>(x: T) -> (T, T) {
     let (sine, cosine) = polynomials(r, z);
     // −0 + 0 is 0.
     let (sign, zero) = (T::splat(-0.0), sine.and(r).and(T::splat(-0.0)));
-    let sine = sine.xor(r.and(sign)).xor(zero);
-    swap(sine, cosine, n)
+    swap(sine.xor(r.and(sign)).xor(zero), cosine, n)
 }
 
 /// Returns sine and cosine of any `f64`, with the same bits as [`near`] within its range, so that
@@ -247,8 +246,7 @@ fn polynomials<T: Real>(r: T, z: T) -> (T, T) {
 /// negated the rest).
 #[inline(always)]
 fn swap<T: Real>(sine: T, cosine: T, n: T) -> (T, T) {
-    let sign = n.shifted::<62>().and(T::splat(-0.0));
-    let change = sine.xor(cosine).and(n.odd()).xor(sign);
+    let change = sine.xor(cosine).and(n.odd()).xor(n.shifted::<62>().and(T::splat(-0.0)));
     (sine.xor(change), cosine.xor(change))
 }
 

@@ -69,8 +69,7 @@ impl Register for Sse2 {
     fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
         // SAFETY: the CPU has the instructions, see the module documentation.
         Self(unsafe {
-            let places = _mm_cvtsi32_si128(PLACES as i32);
-            _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(a), places))
+            _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(a), _mm_cvtsi32_si128(PLACES as i32)))
         })
     }
 }
@@ -105,8 +104,7 @@ impl Register for Avx2 {
     fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
         // SAFETY: the CPU has the instruction, see the module documentation.
         Self(unsafe {
-            let places = _mm_cvtsi64_si128(PLACES as i64);
-            _mm256_castsi256_pd(_mm256_sll_epi64(_mm256_castpd_si256(a), places))
+            _mm256_castsi256_pd(_mm256_sll_epi64(_mm256_castpd_si256(a), _mm_cvtsi64_si128(PLACES as i64)))
         })
     }
 

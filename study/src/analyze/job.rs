@@ -97,8 +97,7 @@ impl Analyze {
     /// order.
     pub fn run_with_rows(&self, rows: Option<&mut dyn FnMut(&Row)>, notes: &mut dyn Notes) -> Result<Report> {
         self.with_sweep(notes, |sweep, notes| {
-            let all = sweep.run(0..sweep.budget.chunks(), rows, notes)?;
-            sweep.report(all, notes)
+            sweep.report(sweep.run(0..sweep.budget.chunks(), rows, notes)?, notes)
         })
     }
 

@@ -187,10 +187,7 @@ pub(super) fn values(item: &Item<'_>, dimension: Dimension) -> Option<Vec<f64>> 
     let end = |key: &str| constant(&section.required(key)?, dimension, &what);
     let (from, to) = (end("from"), end("to"));
     match (section.get("count"), section.get("step")) {
-        (Some(counted), None) => {
-            let count = count(&counted, VALUES)?;
-            Some(sampling::grid([from?, to?], count))
-        }
+        (Some(counted), None) => Some(sampling::grid([from?, to?], count(&counted, VALUES)?)),
         (None, Some(item)) => stepped([from?, to?], constant(&item, dimension, "a step")?, &item),
         _ => {
             let message = format!("{} needs either `count` or `step`", section.name);

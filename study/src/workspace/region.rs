@@ -150,8 +150,7 @@ impl Region {
                 Box::new(sampled(joint_samples(manipulator, moved, *count)?)?)
             }
             Form::Samples { moved, count, seed: Some(own) } => {
-                let seed = seed.unwrap_or(*own);
-                Box::new(sampled(random_joint_samples(manipulator, moved, *count, seed)?)?)
+                Box::new(sampled(random_joint_samples(manipulator, moved, *count, seed.unwrap_or(*own))?)?)
             }
             Form::Box(region) => Box::new(base_box(manipulator, region)?),
             Form::Path(path) => Box::new(listed(manipulator, path.configurations(manipulator))?),

@@ -56,8 +56,7 @@ impl Region {
         let mut spans: Vec<Span> = match &self.form {
             Form::Presented(Presentation { tool_points, approaches, solved, .. }) => {
                 let points = tool_points.iter().map(over(Symbol::Parameter));
-                let held = approaches.iter().map(over(Symbol::Variable));
-                points.chain(held).chain(reached(solved)).collect()
+                points.chain(approaches.iter().map(over(Symbol::Variable))).chain(reached(solved)).collect()
             }
             Form::Grid(axes) => axes.iter().map(over(Symbol::Variable)).collect(),
             Form::Samples { moved, .. } => moved.iter().map(limits).collect(),

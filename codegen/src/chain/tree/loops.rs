@@ -170,8 +170,7 @@ impl RealNodes {
         }
         let columns = (0..spec.passive.len()).map(|i| graph.diff_all(&residual, Symbol::Local(i))).collect();
         let factored = Factored::new(graph, columns, units);
-        let home = at_home(spec, passive_home);
-        let system = LoopSystem::new(graph, [residual, upright], &factored, home);
+        let system = LoopSystem::new(graph, [residual, upright], &factored, at_home(spec, passive_home));
         Self { errors, system, pose: poses[poses.len() - 1] }
     }
 }

@@ -32,18 +32,14 @@ impl<'s> View<'s> {
         for (index, frame) in spec.frames.iter().enumerate() {
             let mut steps = Vec::new();
             let pose = match view.is_below(index) {
-                true => {
-                    let before = *view.pose(frame.parent);
-                    walk(graph, before, &frame.factors, &mut steps)
-                }
+                true => walk(graph, *view.pose(frame.parent), &frame.factors, &mut steps),
                 false => identity,
             };
             view.poses.push(pose);
             view.steps.push(Steps::new(graph, steps));
         }
         let mut steps = Vec::new();
-        let before = *view.pose(Some(spec.tool_frame));
-        let tool = walk(graph, before, &spec.tool, &mut steps);
+        let tool = walk(graph, *view.pose(Some(spec.tool_frame)), &spec.tool, &mut steps);
         view.poses.push(tool);
         view.steps.push(Steps::new(graph, steps));
         view

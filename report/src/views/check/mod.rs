@@ -215,8 +215,7 @@ fn frames(spec: &Spec) -> Table {
         [number, frame.name.clone(), variable.name.clone(), kind, limits, home]
     });
     if spec.is_serial() {
-        let columns = ["", "frame", "variable", "kind", "limits", "home"];
-        return Table::new("", columns).rows(rows);
+        return Table::new("", ["", "frame", "variable", "kind", "limits", "home"]).rows(rows);
     }
     let parents = spec.frames.iter().map(|frame| match frame.parent {
         Some(parent) => spec.frames[parent].name.clone(),
@@ -308,6 +307,5 @@ fn laws(report: &Report) -> Section {
         [law.law.to_owned(), value, bound, verdict.to_owned()]
     });
     let caption = format!("At {} configurations", report.configurations);
-    let columns = ["law", ">found", ">expected", ""];
-    Section::full("Laws").table(Table::new(caption, columns).rows(rows))
+    Section::full("Laws").table(Table::new(caption, ["law", ">found", ">expected", ""]).rows(rows))
 }

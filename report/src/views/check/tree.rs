@@ -41,8 +41,7 @@ pub(super) fn sections(tree: &Tree, spec: &Spec) -> Vec<Section> {
         let [_, _, value] = joint(&closed, spec.length);
         [passive.name.clone(), passive.frame.clone(), kind, limits, start, value]
     });
-    let columns = ["passive", "frame", "kind", "limits", "start", "at home"];
-    let passive = Table::new("", columns).rows(rows);
+    let passive = Table::new("", ["passive", "frame", "kind", "limits", "start", "at home"]).rows(rows);
     vec![
         freedoms,
         Section::full("Loops").table(loops),

@@ -141,8 +141,7 @@ impl Assignment {
         let is_moved = |passive: &usize| over.iter().any(|index| self.moved[*index].contains(passive));
         let of_over = (0..self.determined_by.len()).filter(is_moved).collect();
         let moves = |index: &usize| self.moved[*index].iter().any(|passive| free.contains(passive));
-        let of_free = (0..self.moved.len()).filter(moves).collect();
-        let parts = [(over, of_over), (of_free, free)].into_iter();
+        let parts = [(over, of_over), ((0..self.moved.len()).filter(moves).collect(), free)].into_iter();
         let parts = parts.filter(|(loops, _): &(Vec<usize>, Vec<usize>)| !loops.is_empty());
         parts.map(|(loops, passive)| self.part(loops, passive)).collect()
     }

@@ -276,8 +276,7 @@ pub fn rules() -> Vec<Rule> {
             for when in whens.into_iter().flatten() {
                 let [first, second] = Beam::bending_keys(axis);
                 rules.push(rule(table, when.clone(), Then::Needs(vec![first, second])));
-                let own = ["EI_x", "EI_y", "EI_z"][axis];
-                rules.push(rule(table, when, Then::Refuses(vec![own])));
+                rules.push(rule(table, when, Then::Refuses(vec![["EI_x", "EI_y", "EI_z"][axis]])));
             }
         }
     }

@@ -83,8 +83,7 @@ impl Histogram {
     /// Counts an error.
     pub(super) fn add(all: &mut [Bins<Count>; 4], error: [f64; 3]) {
         let [x, y, z] = error;
-        let values = [x, y, z, norm(error)];
-        all.iter_mut().zip(values).for_each(|(bins, value)| bins.bin_mut(value).0 += 1);
+        all.iter_mut().zip([x, y, z, norm(error)]).for_each(|(bins, value)| bins.bin_mut(value).0 += 1);
     }
 
     /// Creates the histogram, with at most 40 bars per component.
