@@ -65,9 +65,9 @@ pub(crate) fn run(arguments: &Positioning) -> Result<Outcome> {
     let file = outputs.wanted(out.as_deref())?;
     let html = outputs.wanted(page.report.as_deref())?;
     let report = job.run(&mut Console::default())?;
-    let next = match file {
-        Some(_) => "--full for every position",
-        None => "--out FILE writes the mean deviations for a table of a spec, --full shows every position",
+    let next = match file.is_none() && report.table().is_some() {
+        true => "--out FILE writes the mean deviations for a table of a spec, --full shows every position",
+        false => "--full for every position",
     };
     let document = views::positioning(&report);
     let mut record = RunRecord::default();
