@@ -145,16 +145,18 @@ impl Function<'_> {
         let once = |array: &usize| flat.keeps_zeros(*array) && flat.begins_whole(*array);
         for array in (0..flat.routine.arrays.len()).filter(once) {
             let (name, zero) = (flat.routine.arrays[array].name, real.number(0.0));
-            let mut entries = vec![];
+            let mut places = vec![];
             for statement in list {
                 if let Statement::Assign { to, index, values, .. } = statement
                     && to.array == array
                 {
                     let zeros = values.iter().enumerate().filter(|(_, value)| value.is_zero);
                     let place = |k| flat.index(*to, *index, k, |_, _| String::new());
-                    entries.extend(zeros.map(|(k, _)| format!("{name}[{}] = {zero}", place(k))));
+                    places.extend(zeros.filter_map(|(k, _)| place(k).parse::<usize>().ok()));
                 }
             }
+            places.sort_unstable();
+            let entries: Vec<_> = places.iter().map(|place| format!("{name}[{place}] = {zero}")).collect();
             if entries.len() > LOOP {
                 let head = format!(
                     "#if defined(__OPTIMIZE_SIZE__)\nfor (int k = 0; k < {}; k++) {{",
