@@ -108,7 +108,7 @@ impl Positioning<'_> {
             found.ok_or_else(|| {
                 let message = "there are no readings in half of the circle or more".to_owned();
                 mistake::with_help(
-                    &self.data.name(),
+                    self.data.name(),
                     message,
                     "measure at angles all around, or at 220° and more",
                 )
