@@ -78,16 +78,16 @@ enum Outcome {
     Results(Vec<f64>),
 }
 
-/// Tries a few mutants in each language that can run here.
+/// Tries a few mutants in each language that can run here: some are found.
 fn sample() -> Result<(), Missing> {
     let all = [FUNCTIONS, COMMAND_NAMES, SHARED].concat();
     let c = Language::C(Real::Double);
-    for language in [c, Language::JavaScript, Language::Python, Language::StructuredText] {
-        // A language without its tool is left out.
-        let rows = counted(language, &all, Some(SAMPLE)).unwrap_or_default();
-        let caught: usize = rows.values().map(|row| row.caught).sum();
-        assert!(rows.is_empty() || caught > 0, "{}", language.name());
-    }
+    // A language without its tool is left out.
+    let counted = [c, Language::JavaScript, Language::Python, Language::StructuredText]
+        .map(|language| counted(language, &all, Some(SAMPLE)).unwrap_or_default());
+    let rows = counted.iter().flat_map(BTreeMap::values);
+    let [sites, caught] = rows.fold([0; 2], |[sites, caught], row| [sites + row.sites, caught + row.caught]);
+    assert!(4 * caught > sites, "{caught} of {sites}");
     Ok(())
 }
 
