@@ -649,9 +649,9 @@ class Machine:
     def generate(self, language: options.Language = "rust", *, real: options.Real | None = None, only: str | None = None, name: str | None = None) -> str:
         """Returns the closed form as source code in one text.
 
-        `language`: "rust", "c", "js", "python", "matlab" or "st". `real`: floating-point type of C,
-        "double" (default) or "float". The text of C is the header followed by the source;
-        `generate_files` returns them one by one. The same spec always gives the same text.
+        `language`: "rust", "c", "js", "python", "matlab", "st" or "plcopen". `real`: floating-point
+        type of C, "double" (default) or "float". The text of C is the header followed by the
+        source; `generate_files` returns them one by one. The same spec always gives the same text.
 
         `only`: functions to write, with what they need, separated by commas, for "c", "js",
         "python" and "matlab"; None for all. `name`: name in the code instead of the machine's.
@@ -863,11 +863,12 @@ def positioning(
     scale_uncertainty: str | None = None,
     accept: str | None = None,
 ) -> PositioningReport:
-    """Evaluates runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6.
+    """Evaluates runs of one axis by ISO 230-2, body diagonals by ISO 230-6, or circles by ISO 230-4.
 
     `data`: a CSV file or a table with columns `position (mm)`, `direction` (`+` or `-`) and
     `deviation (um)` or `actual (mm)`; or with one column for each pass, `1+ (um)`, `1- (um)`, …
-    A column `diagonal` names the body diagonal of each row. `reading_uncertainty`,
+    A column `diagonal` names the body diagonal of each row. A column `angle (deg)` instead of
+    `position` has a circular test, whose deviations are those of the radius. `reading_uncertainty`,
     `scale_uncertainty`: standard uncertainties of one reading of the instrument, "0.1 um", and of
     its scale, "1 um/m". `accept`: limits of characteristics, "A 12 um, B 3 um"; the report then has
     a verdict, `accepted`.
