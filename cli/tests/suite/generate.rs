@@ -86,6 +86,7 @@ fn functions_are_selected_by_name() {
         ("python", "def pose(", "def real_pose("),
         ("matlab", "= pose(", "effects"),
         ("st", "FUNCTION_BLOCK ur5_pose", "effects"),
+        ("plcopen", "<pou name=\"ur5_pose\" pouType=\"functionBlock\">", "effects"),
     ] {
         let code = prints(&["generate", "ur5", "--lang", language, "--only", "pose,compensated"]);
         assert!(code.contains(exported) && !code.contains(other), "{language}");

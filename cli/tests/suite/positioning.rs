@@ -144,7 +144,7 @@ fn circles_are_evaluated_by_iso_230_4() {
     let folder = tempfile::tempdir().unwrap();
     let forms = [
         ballbar("angle (deg),direction,deviation (um)", |at, side, own| format!("{at},{side},{own:.6}")),
-        ballbar("Angle (rad);Direction;radius (mm)", |at, side, own| {
+        ballbar("Angle (rad);Direction;radial deviation (mm)", |at, side, own| {
             format!("{:.12};{side};{:.9}", at.to_radians(), own / 1e3)
         }),
     ];
@@ -178,9 +178,13 @@ fn circles_are_evaluated_by_iso_230_4() {
         assert!(run.status == 2 && run.stderr.contains("unknown figure `A`"), "{}", run.stderr);
     }
     for (text, message) in [
-        ("angle (deg),1+ (um)\n0,1\n90,2\n120,1\n", "no readings in half of the circle or more"),
-        ("angle (deg),1+ (arcsec)\n0,1\n90,2\n200,1\n", "are not an angle and a length"),
-        ("angle (mm),1+ (um)\n0,1\n90,2\n200,1\n", "are not an angle and a length"),
+        ("angle (deg),1+ (um)\n0,1\n60,2\n90,2\n120,1\n", "none in half of the circle or more"),
+        ("angle (deg),1+ (um)\n0,1\n120,2\n240,1\n360,1\n", "fewer than four angles"),
+        ("angle (deg),direction,actual (mm)\n0,+,100\n90,+,100\n", "angles and deviations of its radius"),
+        ("angle (deg),diagonal,1+ (um)\n0,PPP,1\n90,PPP,2\n", "angles and deviations of its radius"),
+        ("angle (deg),direction,radius (mm)\n0,+,100\n90,+,100\n", "no column has deviations"),
+        ("angle (deg),1+ (arcsec)\n0,1\n90,2\n200,1\n", "angles and deviations of its radius"),
+        ("angle (mm),1+ (um)\n0,1\n90,2\n200,1\n", "angles and deviations of its radius"),
     ] {
         let file = write(folder.path(), "wrong.csv", text);
         let run = abbe(&["positioning", file.to_str().unwrap()]);
@@ -189,6 +193,14 @@ fn circles_are_evaluated_by_iso_230_4() {
     let one = write(folder.path(), "one.csv", "angle (deg),1+ (um)\n0,1\n90,2\n200,1\n300,4\n");
     let run = abbe(&["positioning", one.to_str().unwrap(), "--accept", "H 3um"]);
     assert!(run.status == 2 && run.stderr.contains("H is not known"), "{}", run.stderr);
+    let one = one.to_str().unwrap();
+    let run = abbe(&["positioning", one, "--scale-uncertainty", "1um/m"]);
+    assert!(run.status == 2 && run.stderr.contains("is not used for circles"), "{}", run.stderr);
+    // No option is offered that is refused.
+    let text = prints(&["positioning", one]);
+    assert!(!text.contains("--scale-uncertainty") && !text.contains("--out"), "{text}");
+    let run = abbe(&["positioning", one, "--out", "x.csv"]);
+    assert!(run.status == 2 && !Path::new("x.csv").exists(), "{}", run.stderr);
 }
 
 /// Checks that the answer says why characteristics are missing, and at which position.

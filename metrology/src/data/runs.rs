@@ -35,7 +35,7 @@ pub struct Runs {
 
 /// Names of columns, in lower case.
 const POSITION: [&str; 3] = ["position", "target", "target position"];
-const DEVIATION: [&str; 4] = ["deviation", "error", "radius", "radial deviation"];
+const DEVIATION: [&str; 3] = ["deviation", "error", "radial deviation"];
 const ACTUAL: [&str; 3] = ["actual", "actual position", "measured"];
 const DIRECTION: [&str; 2] = ["direction", "approach"];
 const DIAGONAL: [&str; 1] = ["diagonal"];
@@ -51,8 +51,8 @@ const WORDS: [&[&str]; 2] = [
 /// Distance of positions, relative to the largest, within which they are the same.
 const SAME: f64 = 1e-9;
 
-const FORM: &str = "name columns `position (mm)`, `direction` and `deviation (um)`, or one column for \
-                    each pass: `1+ (um)`, `1- (um)`";
+const FORM: &str = "name columns `position (mm)`, or `angle (deg)` of a circle, `direction` and `deviation (um)`, or \
+                    one column for each pass: `1+ (um)`, `1- (um)`";
 
 /// Position, direction and deviation.
 type Reading = (f64, usize, f64);
@@ -139,16 +139,16 @@ pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
     let position_unit = unit(position)?;
     let is_angle = position_unit.dimension == Dimension::NONE;
     let fits = |own: &&Readings| match is_circle {
-        true => is_angle && own.unit.dimension == Dimension::LENGTH,
+        true => is_angle && own.unit.dimension == Dimension::LENGTH && !own.is_actual && diagonal.is_none(),
         false => own.unit.dimension == position_unit.dimension,
     };
     if let Some(own) = readings.iter().find(|own| !fits(own)) {
-        let named = |place: usize| heading[place].escape_debug();
-        let (what, help) = match is_circle {
-            true => ("an angle and a length", "write `angle (deg)` and `deviation (um)` of the radius"),
-            false => ("both lengths or both angles", "write the units of one axis"),
+        let [one, other] = [position, own.place].map(|place| heading[place].escape_debug());
+        let message = match is_circle {
+            true => "a circular test has angles and deviations of its radius".to_owned(),
+            false => format!("`{one}` and `{other}` are not both lengths or both angles"),
         };
-        return refuse(format!("`{}` and `{}` are not {what}", named(position), named(own.place)), help);
+        return refuse(message, FORM);
     }
     let is_rotary = is_angle && !is_circle;
     // In mm or rad; deviations are shown in um or arcsec.

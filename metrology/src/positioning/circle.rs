@@ -61,16 +61,18 @@ struct Circle<'a> {
 }
 
 impl<'a> Circle<'a> {
-    /// Fits a circle to the means of some directions; `None` if they are missing in half of it or
-    /// more.
+    /// Fits a circle to the means of some directions; `None` if they have few angles or are missing
+    /// in half of it or more.
     fn new(statistics: &'a Statistics<'a>, directions: &[usize]) -> Option<Self> {
         let all = directions.iter().flat_map(|d| (0..statistics.positions.len()).map(move |i| (i, *d)));
         let places: Vec<_> = all.filter(|(i, d)| statistics.approach(*i, *d).is_some()).collect();
         let angle = |k: usize| statistics.positions[places[k].0].position;
         let mut angles: Vec<f64> = (0..places.len()).map(|k| angle(k).rem_euclid(360.0)).collect();
         angles.sort_by(f64::total_cmp);
+        angles.dedup_by(|next, angle| *next - *angle < 1e-6);
         let behind = angles.iter().skip(1).copied().chain([angles.first()? + 360.0]);
-        if angles.iter().zip(behind).any(|(angle, next)| next - angle > 180.0) {
+        // Three angles always lie on a circle.
+        if angles.len() < 4 || angles.iter().zip(behind).any(|(angle, next)| next - angle >= 180.0) {
             return None;
         }
         let terms = |angle: f64| [1.0, angle.to_radians().cos(), angle.to_radians().sin()];
@@ -86,26 +88,38 @@ impl<'a> Circle<'a> {
         Sum { means: means.collect(), ..Sum::default() }
     }
 
-    /// Returns ρ of each mean, times a sign.
-    fn radial(&self, sign: f64) -> impl Iterator<Item = Sum> {
-        self.places.iter().map(move |(i, d)| {
-            let (sine, cosine) = self.statistics.positions[*i].position.to_radians().sin_cos();
-            Sum::mean(sign, *i, *d).plus(self.coordinates([0.0, -sign * cosine, -sign * sine]))
-        })
+    /// Returns x and y.
+    fn center(&self) -> Option<[f64; 2]> {
+        let [x, y] =
+            [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|one| self.statistics.value(&self.coordinates(one)));
+        Some([x?, y?])
     }
 
-    /// Returns F_max, F_min and G.
+    /// Returns F_max, F_min and G, in time proportional to the number of means.
     fn extremes(&self) -> Option<[Characteristic; 3]> {
-        let most = self.statistics.largest(self.radial(1.0))?;
-        let least = self.statistics.largest(self.radial(-1.0))?.times(-1.0);
+        let center = self.center()?;
+        let angle = |i: usize| self.statistics.positions[i].position;
+        let mean = |(i, d): &(usize, usize)| self.statistics.approach(*i, *d).map_or(0.0, |own| own.mean);
+        let radial = |place: &(usize, usize)| mean(place) - shift(center, angle(place.0));
+        let by = |a: &&_, b: &&_| radial(a).total_cmp(&radial(b));
+        let places = [self.places.iter().max_by(by)?, self.places.iter().min_by(by)?];
+        let [most, least] = places.map(|(i, d)| {
+            let (sine, cosine) = angle(*i).to_radians().sin_cos();
+            Sum::mean(1.0, *i, *d).plus(self.coordinates([0.0, -cosine, -sine]))
+        });
         let [largest, smallest] = [&most, &least].map(|sum| self.statistics.characteristic(sum));
         Some([largest?, smallest?, self.statistics.characteristic(&most.plus(least.times(-1.0)))?])
     }
 }
 
+/// Returns x cos θ + y sin θ of an angle in degrees.
+fn shift([x, y]: [f64; 2], angle: f64) -> f64 {
+    x * angle.to_radians().cos() + y * angle.to_radians().sin()
+}
+
 impl CircularResult {
-    /// Evaluates readings of the radius, in um, at angles in degrees; `None` if a direction has
-    /// none in half of the circle or more. `reading` is the uncertainty of one.
+    /// Evaluates readings of the radius, in um, at angles in degrees; `None` if a direction has few
+    /// angles or none in half of the circle or more. `reading` is the uncertainty of one.
     pub(super) fn new(targets: &[TargetRuns], reading: Option<f64>) -> Option<Self> {
         let Evaluation { positions, .. } = Evaluation::of_positions(targets);
         let uncertainty = reading.map(|reading| InstrumentUncertainty { reading, scale: 0.0 });
@@ -130,12 +144,9 @@ impl CircularPath {
     fn new(targets: &[TargetRuns], statistics: &Statistics<'_>, side: usize) -> Option<Self> {
         let circle = Circle::new(statistics, &[side])?;
         let [largest, smallest, circularity] = circle.extremes()?;
-        let factors = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let center =
-            factors.map(|factors| statistics.value(&circle.coordinates(factors)).unwrap_or_default());
+        let center = circle.center()?;
         let of = |target: &TargetRuns| {
-            let (sine, cosine) = target.position.to_radians().sin_cos();
-            let shift = center[0] * cosine + center[1] * sine;
+            let shift = shift(center, target.position);
             target.deviations[side].iter().map(move |reading| reading - shift).collect::<Vec<f64>>()
         };
         let measured = || targets.iter().map(of).filter(|own| !own.is_empty());

@@ -87,6 +87,10 @@ impl Positioning<'_> {
     /// Reads and evaluates the runs.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let Runs { is_rotary, is_circle, lines } = runs(self.data)?;
+        if is_circle && self.scale.is_some() {
+            let message = format!("`{SCALE_UNCERTAINTY}` is not used for circles");
+            return Err(mistake::with_help(SCALE_UNCERTAINTY, message, "leave it out"));
+        }
         let instrument = self.instrument(is_rotary)?;
         let counts = lines.iter().flat_map(|(_, targets)| targets).flat_map(|target| &target.deviations);
         let counts = counts.map(Vec::len).filter(|count| *count > 0);
@@ -106,12 +110,9 @@ impl Positioning<'_> {
         let circle = |(_, targets): &(String, Vec<TargetRuns>)| {
             let found = CircularResult::new(targets, instrument.map(|own| own.reading));
             found.ok_or_else(|| {
-                let message = "there are no readings in half of the circle or more".to_owned();
-                mistake::with_help(
-                    self.data.name(),
-                    message,
-                    "measure at angles all around, or at 220° and more",
-                )
+                let message = "a direction has fewer than four angles, or none in half of the circle or more";
+                let help = "measure at angles all around, or at 220° and more";
+                mistake::with_help(self.data.name(), message.to_owned(), help)
             })
         };
         let circle = lines.first().filter(|_| is_circle).map(circle).transpose()?;
@@ -220,17 +221,12 @@ impl Report {
         let check = |(name, limit): (&'static str, f64)| {
             let found = figures.iter().find(|(figure, _)| *figure == name).and_then(|(_, value)| *value);
             let Some(Characteristic { value, uncertainty }) = found else {
-                let (why, help) = match self.circle {
-                    Some(_) => (
-                        "an angle has readings of one direction only",
-                        "measure both directions at all angles",
-                    ),
-                    None => (
-                        "a position has a single approach in a direction",
-                        "approach each position twice or more",
-                    ),
-                };
-                return Err(mistake::with_help(&option, format!("{name} is not known: {why}"), help));
+                let help = "approach each position twice or more, or read each angle in both directions";
+                return Err(mistake::with_help(
+                    &option,
+                    format!("{name} is not known: readings are missing"),
+                    help,
+                ));
             };
             // The expanded uncertainty has k = 2 on both sides.
             let uncertainty = ONE_SIDED_95 * uncertainty.unwrap_or_default() / 2.0;

@@ -190,28 +190,28 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
             digits(most, 6),
             report.position_unit,
             range(report.approaches),
-            match (report.circle.is_some(), report.approaches == [1, 1]) {
-                (true, true) => "reading",
-                (true, false) => "readings",
-                (false, true) => "approach",
-                (false, false) => "approaches",
-            }
+            ["approaches", "approach", "readings", "reading"]
+                [2 * usize::from(report.circle.is_some()) + usize::from(report.approaches == [1, 1])]
         ),
     )];
     facts.extend(missing(report).map(|missing| ("Missing", missing)));
+    let of_scale = |scale: Option<f64>| match scale.map(|scale| digits(scale, 3)) {
+        _ if report.circle.is_some() => String::new(),
+        None => format!(" and `{SCALE_UNCERTAINTY}`"),
+        Some(scale) => format!(", {scale} {}/{} of the scale", report.unit, report.position_unit),
+    };
     facts.push((
         "±",
         match report.instrument {
             None => format!(
-                "not known: `{READING_UNCERTAINTY}` and `{SCALE_UNCERTAINTY}` state those of the instrument"
+                "not known: state that of the instrument by `{READING_UNCERTAINTY}`{}",
+                of_scale(None)
             ),
             Some([reading, scale]) => format!(
-                "expanded uncertainty, k = 2, to first order: {} {unit} of a reading, {} {unit}/{} of the \
-                 scale (standard uncertainties)",
+                "expanded uncertainty, k = 2, to first order: {} {} of a reading{} (standard uncertainties)",
                 digits(reading, 3),
-                digits(scale, 3),
-                report.position_unit,
-                unit = report.unit
+                report.unit,
+                of_scale(Some(scale)),
             ),
         },
     ));

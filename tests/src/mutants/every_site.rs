@@ -57,10 +57,9 @@ pub fn every_mutant(text: &str, syntax: Syntax, is_mutated: impl Fn(&str) -> boo
             Syntax::Python => ["\"\"\"", "\"\"\""],
             Syntax::StructuredText => ["(*", "*)"],
         };
-        let begins = trimmed.trim_start_matches('r').starts_with(ends[0]);
-        if is_comment || begins {
-            let rest = if is_comment { trimmed } else { trimmed.trim_start_matches('r').get(2..).unwrap() };
-            is_comment = !rest.trim_start_matches('"').ends_with(ends[1]);
+        let begun_here = trimmed.trim_start_matches('r').strip_prefix(ends[0]).filter(|_| !is_comment);
+        if is_comment || begun_here.is_some() {
+            is_comment = !begun_here.unwrap_or(trimmed).ends_with(ends[1]);
             continue;
         }
         let head = match syntax {

@@ -55,9 +55,8 @@ const COMMAND_NAMES: &[&str] = &["compensated", "begin"];
 const SHARED: &[&str] =
     &["deviation", "weighted", "cost", "shortest", "clamped", "least", "greatest", "side"];
 
-/// Least share of mutants that are caught, and largest number of those that are missed, by language
-/// and function, as measured.
-const MEASURED: [(&str, &str, f64, usize); 0] = [];
+/// Least number of mutants that are caught for each one that is missed.
+const CAUGHT: usize = 4;
 
 /// Number of calls of the comparison with Rust, and of those that tell harmless mutants.
 const CALLS: [usize; 2] = [40, 300];
@@ -98,11 +97,9 @@ fn table(language: Language, names: &[&str]) -> Result<(), Missing> {
         needs::thorough()?;
     }
     let rows = counted(language, names, asked)?;
-    for (name, function, least, most) in MEASURED.into_iter().filter(|(name, ..)| *name == language.name()) {
-        let Some(row) = rows.get(function).filter(|_| asked.is_none()) else { continue };
-        let share = 100.0 * row.caught as f64 / row.sites as f64;
-        assert!(share >= least && row.missed <= most, "{name} {function}: {share} % caught, {row:?}");
-    }
+    let [caught, missed] =
+        rows.values().fold([0; 2], |[caught, missed], row| [caught + row.caught, missed + row.missed]);
+    assert!(caught > 0 && caught >= CAUGHT * missed, "{}: {caught} caught, {missed} missed", language.name());
     Ok(())
 }
 

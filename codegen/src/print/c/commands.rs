@@ -14,8 +14,8 @@ use crate::chain::Model;
 /// change and that of the correction have.
 ///
 /// Where a bound keeps a pose from being reached, the iterations may not end, and rounding decides
-/// which of two corrections that are about as good is taken. Any rounding has the same results,
-/// within the tolerance, where the iterations end or the pose is reached.
+/// which of two corrections that are about as good is taken. Rounding should not matter beyond the
+/// tolerance where the iterations end or the pose is reached; tests try several compilers.
 const CASES: [[f64; 9]; 32] = include!("cases.in");
 
 /// Multiple of the bounds by default that holds no correction.

@@ -145,29 +145,24 @@ impl Function<'_> {
         let once = |array: &usize| flat.keeps_zeros(*array) && flat.begins_whole(*array);
         for array in (0..flat.routine.arrays.len()).filter(once) {
             let (name, zero) = (flat.routine.arrays[array].name, real.number(0.0));
-            let mut places = vec![];
-            for statement in list {
-                if let Statement::Assign { to, index, values, .. } = statement
-                    && to.array == array
-                {
-                    let zeros = values.iter().enumerate().filter(|(_, value)| value.is_zero);
-                    let place = |k| flat.index(*to, *index, k, |_, _| String::new());
-                    places.extend(zeros.filter_map(|(k, _)| place(k).parse::<usize>().ok()));
-                }
-            }
+            let assigned = list.iter().filter_map(|statement| match statement {
+                Statement::Assign { to, index, values, .. } if to.array == array => Some((to, index, values)),
+                _ => None,
+            });
+            let places = assigned.flat_map(|(to, index, values)| {
+                let zeros = values.iter().enumerate().filter(|(_, value)| value.is_zero);
+                zeros.map(|(k, _)| flat.index(*to, *index, k, |_, _| String::new()))
+            });
+            let mut places: Vec<usize> = places.filter_map(|place| place.parse().ok()).collect();
             places.sort_unstable();
             let entries: Vec<_> = places.iter().map(|place| format!("{name}[{place}] = {zero}")).collect();
-            if entries.len() > LOOP {
-                let head = format!(
-                    "#if defined(__OPTIMIZE_SIZE__)\nfor (int k = 0; k < {}; k++) {{",
-                    flat.len(array)
-                );
-                writer.lines(&format!("{head}\n    {name}[k] = {zero};\n}}\n#else"));
-            }
+            let (len, is_long) = (flat.len(array), entries.len() > LOOP);
+            let head = format!(
+                "#if defined(__OPTIMIZE_SIZE__)\nfor (int k = 0; k < {len}; k++) {{\n    {name}[k] = {zero};\n}}\n#else"
+            );
+            writer.lines(if is_long { &head } else { "" });
             filled(writer, "", &entries, "; ");
-            if entries.len() > LOOP {
-                writer.lines("#endif");
-            }
+            writer.lines(if is_long { "#endif" } else { "" });
         }
     }
 

@@ -98,5 +98,30 @@ fn arcs() {
     };
     let found = arc(220.0).unwrap().forward.unwrap();
     assert!(near(found.center[0], 2.0) && found.circularity.value.abs() < 1e-9);
-    assert!(arc(170.0).is_none());
+    assert!(arc(170.0).is_none() && arc(175.0).is_none());
+    // Three different angles always lie on a circle, however often they are read.
+    let few = |count: usize| {
+        let mut all = targets(count, |angle, _| vec![angle.cos(), 1.0]);
+        all.push(TargetRuns { position: 360.0, ..all[0].clone() });
+        CircularResult::new(&all, None)
+    };
+    assert!(few(3).is_none() && few(4).is_some());
+}
+
+/// Extremes are those of every sum of weighted means, whatever the angles are, and a circle of many
+/// angles takes time in proportion to them.
+#[test]
+fn extremes_are_those_of_all_angles() {
+    for count in [5, 36, 200_000] {
+        let shape = |angle: f64, _| vec![3.0 * (2.0 * angle + 0.3).sin() + (7.0 * angle).cos()];
+        let all = targets(count, shape);
+        let found = CircularResult::new(&all, None).unwrap().forward.unwrap();
+        let of = |target: &TargetRuns| {
+            let (sine, cosine) = target.position.to_radians().sin_cos();
+            target.deviations[0][0] - found.center[0] * cosine - found.center[1] * sine
+        };
+        let [least, most] = range_of(all.iter().map(of));
+        assert!(near(found.largest.value, most) && near(found.smallest.value, least), "{count}: {found:?}");
+        assert!(near(found.circularity.value, most - least), "{count}: {found:?}");
+    }
 }

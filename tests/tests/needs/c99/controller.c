@@ -60,6 +60,19 @@ static int approaches(void)
     for (int j = 0; j < PPS_VARIABLES; j++) {
         REQUIRE(fabs(wanted[j] - reached[j]) < 1e-6 * pps_change[j]);
     }
+    /* Beside a limit, drives stop at it. */
+    for (int k = 0; k < 200; k++) {
+        double q[PPS_VARIABLES];
+        at(0.0, q);
+        for (int j = 0; j < PPS_VARIABLES; j++) {
+            wanted[j] = (k < 100) ? pps_largest[j] : -pps_largest[j];
+            q[j] = pps_limits[j][(k < 100) ? 1 : 0] - 0.3 * wanted[j];
+        }
+        approach(q, wanted, pps_change, acceleration, reached, step);
+        for (int j = 0; j < PPS_VARIABLES; j++) {
+            REQUIRE(q[j] + reached[j] >= pps_limits[j][0] - 1e-9 && q[j] + reached[j] <= pps_limits[j][1] + 1e-9);
+        }
+    }
     /* Any distance, from rest. */
     for (int k = 1; k < 500; k++) {
         double q[PPS_VARIABLES];

@@ -30,6 +30,7 @@ pub(crate) const TESTS: Tests = &[
     ("shipped_robots", shipped_robots),
     ("long_chains", long_chains),
     ("loops", loops),
+    ("small_code_has_the_same_bits", small_code_has_the_same_bits),
     ("tables_and_functions", tables_and_functions),
     ("names_that_mean_something", names_that_mean_something),
     ("hostile_names_compile", hostile_names_compile),
@@ -138,6 +139,24 @@ fn headers_are_those_of_cpp_too() -> Result<(), Missing> {
     let object = folder.path().join("main.o");
     let flags = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-c", "-o"];
     succeeds(Command::new("c++").args(flags).arg(&object).arg(&source));
+    Ok(())
+}
+
+/// Code that is to be small has loops for zeros and one sine for all angles, and the same bits.
+fn small_code_has_the_same_bits() -> Result<(), Missing> {
+    tool("cc", "")?;
+    let pps = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap();
+    let pps = Spec::parse("pps.toml", pps.spec).unwrap();
+    let [measured, linkage] = ["measured", "linkage"].map(|name| Spec::read(specs::path(name)).unwrap());
+    for spec in [pps, measured, linkage] {
+        let folder = tempfile::tempdir().unwrap();
+        write(folder.path(), &spec, Real::Double);
+        let robot = Interpreter::new(spec);
+        let given = configurations(&robot, 200);
+        let found = called(&["cc", "-Os"], folder.path(), &robot, Real::Double, &given);
+        assert_eq!(found[0], 0.0, "{}: the self-test", robot.description().name);
+        compare(&robot, &given, &found[1..]).unwrap();
+    }
     Ok(())
 }
 
