@@ -33,13 +33,12 @@ impl FileKind {
 
     /// Returns the tables of the file.
     pub fn tables(self) -> Vec<&'static Keys> {
-        let parts: &[&'static [Keys]] = match self {
-            Self::Spec => &[abbe_spec::TABLES],
-            Self::Study => &[study_file::TABLES, workspace::TABLES],
-            Self::Map => &[data::TABLES],
-            Self::Plan => &[plan::TABLES, workspace::TABLES],
-        };
-        parts.iter().copied().flatten().collect()
+        match self {
+            Self::Spec => abbe_spec::tables(),
+            Self::Study => [study_file::tables(), workspace::tables()].concat(),
+            Self::Map => data::tables(),
+            Self::Plan => [plan::tables(), workspace::tables()].concat(),
+        }
     }
 
     fn rules(self) -> Vec<Rule> {
@@ -55,7 +54,7 @@ impl FileKind {
     pub fn schema(self) -> Json {
         let name = Self::CHOICES.name(self);
         let (tables, rules) = (self.tables(), self.rules());
-        let mut headers: Vec<&str> = tables.iter().flat_map(|keys| keys.tables).copied().collect();
+        let mut headers: Vec<&str> = tables.iter().flat_map(|keys| &keys.tables).copied().collect();
         headers.sort_unstable();
         headers.dedup();
         let mut schema = table("the file", &tables, &rules);
@@ -75,7 +74,7 @@ fn path(header: &str) -> &str {
 
 /// Returns the schema of the table with a header.
 fn table(header: &str, tables: &[&Keys], rules: &[Rule]) -> Json {
-    let keys = tables.iter().filter(|keys| keys.tables.contains(&header)).flat_map(|keys| keys.keys);
+    let keys = tables.iter().filter(|keys| keys.tables.contains(&header)).flat_map(|keys| &keys.keys);
     let (mut properties, mut required) = (Map::new(), Vec::new());
     for key in keys {
         let mut schema = value(&key.value);
@@ -88,8 +87,8 @@ fn table(header: &str, tables: &[&Keys], rules: &[Rule]) -> Json {
     }
     let mut schema = json!({ "type": "object", "properties": properties });
     // Names of the user beside the keys.
-    let names = tables.iter().flat_map(|keys| keys.keys).find_map(|key| match key.value {
-        Value::Open(open, names) if open == header => Some(value(names)),
+    let names = tables.iter().flat_map(|keys| &keys.keys).find_map(|key| match &key.value {
+        Value::Open(open, names) if *open == header => Some(value(names)),
         _ => None,
     });
     schema["additionalProperties"] = names.unwrap_or(json!(false));
@@ -107,8 +106,8 @@ fn table(header: &str, tables: &[&Keys], rules: &[Rule]) -> Json {
 fn value(kind: &Value) -> Json {
     let reference = |header: &str| json!({ "$ref": format!("#/$defs/{}", path(header)) });
     match kind {
-        Value::Text(_) => json!({ "type": "string" }),
-        Value::Number(_) => json!({ "type": ["number", "string"] }),
+        Value::Text => json!({ "type": "string" }),
+        Value::Number => json!({ "type": ["number", "string"] }),
         Value::Whole(least, most) => {
             let mut whole = json!({ "type": ["integer", "string"], "minimum": least });
             if let Some(most) = most {
@@ -117,8 +116,8 @@ fn value(kind: &Value) -> Json {
             whole
         }
         Value::Boolean => json!({ "type": "boolean" }),
-        Value::Choice(words) => json!({ "enum": words() }),
-        Value::List(_, count, entry) => {
+        Value::Choice(words) => json!({ "enum": words }),
+        Value::List(count, entry) => {
             let mut list = json!({ "type": "array", "items": value(entry) });
             if let Some(count) = count {
                 list["minItems"] = json!(count);
@@ -128,8 +127,8 @@ fn value(kind: &Value) -> Json {
         }
         Value::Table(header) | Value::Open(header, _) => reference(header),
         Value::Tables(header) => json!({ "type": "array", "items": reference(header) }),
-        Value::Names(_, each) => json!({ "type": "object", "additionalProperties": value(each) }),
-        Value::Either(_, forms) => json!({ "anyOf": forms.iter().map(value).collect::<Vec<_>>() }),
+        Value::Names(each) => json!({ "type": "object", "additionalProperties": value(each) }),
+        Value::Either(forms) => json!({ "anyOf": forms.iter().map(value).collect::<Vec<_>>() }),
     }
 }
 

@@ -49,6 +49,6 @@ pub use expr::{Dimension, Elementary, Expression, Function, Lookup, Motion, Symb
 pub use manipulator::{
     Axes, Beam, Cause, ChainNumber, Closure, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
     DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, Loop, MAGNITUDE, Magnitude, Matrix,
-    Parameter, Point, Source, Spec, TABLES, Tree, Uncertain, Variable, as_identifier, check_name, rules,
+    Parameter, Point, Source, Spec, Tree, Uncertain, Variable, as_identifier, check_name, rules, tables,
 };
 pub use notes::Notes;

@@ -43,7 +43,7 @@ pub use column::{Channel, Column, Scale};
 pub use from_rows::FromRows;
 pub(crate) use from_rows::{change_with_reference, in_order, set_input, with_references};
 pub use instrument::{Instrument, Instruments};
-pub use keys::{TABLES, required_keys, rules};
+pub use keys::{required_keys, rules, tables};
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use rows::hash;
 pub use rows::{Data, Dated, Summary, Unusable};

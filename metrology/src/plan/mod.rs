@@ -24,7 +24,7 @@ use crate::identify::{
 };
 use abbe_study::{About, Machine, Notes, Result, Study, finite, mistake, workspace::has_range};
 
-pub use keys::{TABLES, rules};
+pub use keys::{rules, tables};
 pub use report::{Input, Predicted, Report, UndeterminedError};
 pub use sets::{SetSize, Sets};
 

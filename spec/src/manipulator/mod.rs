@@ -13,7 +13,7 @@ use names::{check_identifier, check_manipulator_name, read_title};
 
 pub use frame::{ChainNumber, DhConvention, DhNumber, Factor, Frame, Matrix};
 pub use names::{as_identifier, check_name};
-pub use read::keys::{TABLES, rules};
+pub use read::keys::{rules, tables};
 pub use source::{
     Axes, Beam, Cause, Compliance, Covariance, Deviation, DeviationCause, Effect, Identified, Load,
     Magnitude, Point, Source, Uncertain,

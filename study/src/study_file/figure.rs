@@ -144,7 +144,7 @@ pub(super) fn read_figures(root: &Section<'_>, spec: &Spec, region: Option<&Regi
 
 fn read_one(section: &Section<'_>, spec: &Spec) -> Option<Figure> {
     let kind = section.required("kind").and_then(|item| item.choice(&KINDS))?;
-    section.check_keys(keys::accepted(kind));
+    section.check_keys(&keys::accepted(kind));
     let content = match kind {
         Kind::Travel => Content::Travel(over(&section.required("over")?, spec)?),
         Kind::Surface => {

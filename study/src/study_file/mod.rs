@@ -19,5 +19,5 @@ pub use choices::{CombinedFigure, Criterion, JudgedMachine, Metric};
 pub use compensation::Compensated;
 pub(crate) use figure::UP;
 pub use figure::{Content, Figure, Over};
-pub use keys::{TABLES, rules};
+pub use keys::{rules, tables};
 pub use study::{Published, PublishedResidual, Study, Subject};

@@ -149,7 +149,7 @@ fn held_and_solved(name: &str, span: Range<usize>) -> Diagnostic {
 /// Reads `[workspace.joints]` or `[workspace.random]`: samples within the limits. All variables
 /// move unless `moved` lists some.
 fn samples(section: &Section<'_>, spec: &Spec, random: bool) -> Option<Region> {
-    let known = [&keys::SAMPLES, &keys::RANDOM];
+    let known: [&abbe_spec::keys::Keys; 2] = [&keys::SAMPLES, &keys::RANDOM];
     section.check_keys(if random { &known } else { &known[..1] });
     let variables = spec.variables.len();
     let moved = match section.get("moved") {

@@ -14,7 +14,7 @@ mod span;
 
 pub use axis::{Candidates, constant, count, positive, whole};
 pub use forms::read_region;
-pub use keys::{AXIS, TABLES, rules};
+pub use keys::{rules, tables};
 pub use path::Path;
 pub use region::{Form, Region, has_range};
 pub use span::Span;

@@ -11,7 +11,9 @@ use crate::keys::Keys;
 use crate::manipulator::{Cause, Deviation, Effect, Magnitude, Source, Uncertain, read_title};
 
 /// Keys of a source: its own, and those of its effects.
-const KNOWN: [&Keys; 4] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE, &keys::DEVIATION];
+fn all_keys() -> [&'static Keys; 4] {
+    [&keys::SOURCE, &keys::PLACE, &keys::CAUSE, &keys::DEVIATION]
+}
 
 /// Maximum number of sources.
 const MOST_SOURCES: usize = 10_000;
@@ -26,7 +28,7 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>) -> Vec<Source> 
         let help = "rename one, or give one source several [[source.effect]] tables";
         match read_title(&mut section, "source", &mut known, help) {
             Some(name) => sources.extend(read_source(&section, name, chain)),
-            None => section.check_keys(&KNOWN),
+            None => section.check_keys(&all_keys()),
         }
     }
     for part in parts_of_balls(&mut sources.clone()) {
@@ -86,7 +88,7 @@ pub(super) fn parts_of_balls(sources: &mut [Source]) -> Vec<Source> {
 }
 
 fn read_source(section: &Section<'_>, name: String, chain: Chain<'_>) -> Option<Source> {
-    section.check_keys(&KNOWN);
+    section.check_keys(&all_keys());
     let class = section.required("class");
     let class = class.and_then(|class| read_class(&class, section));
     let degrees_of_freedom = read_degrees_of_freedom(section, class, chain)?;
@@ -96,11 +98,13 @@ fn read_source(section: &Section<'_>, name: String, chain: Chain<'_>) -> Option<
         section.get("magnitude").map_or(Some(None), |item| read_magnitude(&item, class, chain).map(Some))?;
     let mut acts = Acts::default();
     let tables = section.get("effect").and_then(|item| item.array_of_tables("source.effect"));
-    if tables.is_none() || section.items().any(|item| KNOWN[1..].iter().any(|keys| keys.contain(&item.key))) {
+    if tables.is_none()
+        || section.items().any(|item| all_keys()[1..].iter().any(|keys| keys.contain(&item.key)))
+    {
         acts.read(section, chain);
     }
     for item in tables.unwrap_or_default() {
-        if let Some(table) = item.table(format!("an effect of {}", section.name), &KNOWN[1..]) {
+        if let Some(table) = item.table(format!("an effect of {}", section.name), &all_keys()[1..]) {
             acts.read(&table, chain);
         }
     }

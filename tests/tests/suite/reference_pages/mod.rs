@@ -1,6 +1,6 @@
 //! `docs/reference` describes every key as the readers implement it, no less and no more.
 //!
-//! The readers' keys are the `TABLES` of their `keys.rs`. Every key has a row and occurs in an
+//! The readers' keys are those of their `keys.txt`. Every key has a row and occurs in an
 //! example of its page, with its example value. A key is `required` if the example without it is
 //! rejected as incomplete. The message of a mistake is that of `bad-specs` and similar folders;
 //! `UPDATE_EXPECT=1` writes it.
@@ -18,14 +18,14 @@ use abbe_metrology::plan::{Choice, Plan, Sets};
 use abbe_metrology::schema::FileKind;
 use abbe_metrology::simulate::{Places, Simulate};
 use abbe_metrology::{data, plan};
+use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use abbe_spec::expr::{FUNCTION_NAMES, UNIT_NAMES};
 use abbe_spec::keys::Keys;
-use abbe_spec::{Spec, TABLES};
 use abbe_study::analyze::Analyze;
 use abbe_study::check::Check;
-use abbe_study::{Machine, Study, study_file, workspace};
+use abbe_study::{Machine, Study};
 use abbe_tests::thorough;
 use example::{Use, uses};
 use page::Page;
@@ -39,28 +39,24 @@ type Reader = fn(&Path, &str) -> Result<(), Diagnostics>;
 /// Returns every page, its keys, and the reader of its examples.
 fn pages() -> Vec<(Page, Vec<&'static Keys>, Reader)> {
     vec![
-        (Page::read("spec.md"), all(&[TABLES]), |path, text| {
+        (Page::read("spec.md"), FileKind::Spec.tables(), |path, text| {
             Spec::parse_in(path.parent().unwrap(), "example", text)?;
             Ok(())
         }),
-        (Page::read("study.md"), all(&[study_file::TABLES, workspace::TABLES]), |path, text| {
+        (Page::read("study.md"), FileKind::Study.tables(), |path, text| {
             Study::read(Document::new(path.to_string_lossy(), text), &CELL)?;
             Ok(())
         }),
-        (Page::read("map.md"), all(&[data::TABLES]), |_, text| {
+        (Page::read("map.md"), FileKind::Map.tables(), |_, text| {
             Map::parse("example", text, &CELL)?;
             Ok(())
         }),
-        (Page::read("plan.md"), all(&[plan::TABLES]), |path, text| {
+        (Page::read("plan.md"), plan::tables(), |path, text| {
             std::fs::write(path, text).unwrap();
             Sets::find(path, &CELL)?;
             Ok(())
         }),
     ]
-}
-
-fn all(tables: &[&'static [Keys]]) -> Vec<&'static Keys> {
-    tables.iter().copied().flatten().collect()
 }
 
 /// Manipulator of `spec.md`, on which all other pages are based.
@@ -104,7 +100,7 @@ fn every_key_has_a_row_and_every_row_a_key() {
         }
         for (table, key) in explained.difference(&known) {
             problems.push(format!(
-                "docs/reference/{} explains the key `{key}` of `{table}`, which no reader knows: remove the row, or add the key to keys.rs.",
+                "docs/reference/{} explains the key `{key}` of `{table}`, which no reader knows: remove the row, or add the key to keys.txt.",
                 page.name
             ));
         }
@@ -201,7 +197,7 @@ fn every_row_has_the_facts_of_its_key_and_the_message_of_its_mistake() {
         for row in page.rows() {
             let name = format!("docs/reference/{}, `{}`", page.name, row.key);
             if let Some(expected) = row.expected(&keys).filter(|expected| *expected != row.facts) {
-                problems.push(format!("{name}: keys.rs has {expected:?}, the page has {:?}: run this test with UPDATE_EXPECT=1.", row.facts));
+                problems.push(format!("{name}: keys.txt has {expected:?}, the page has {:?}: run this test with UPDATE_EXPECT=1.", row.facts));
             }
             match row.said() {
                 Some(said) if said == row.mistake => {}
@@ -230,11 +226,11 @@ fn every_instrument_has_its_row() {
         if !page.lines().any(|line| line == row) {
             problems.push(format!("docs/reference/map.md has no row\n{row}"));
         }
-        let known = data::TABLES.iter().filter(|table| table.tables == ["[[instrument]]"]);
+        let known = data::tables().into_iter().filter(|table| table.tables == ["[[instrument]]"]);
         let known: Vec<&str> = known.flat_map(|table| table.names()).collect();
         let unknown = kind.keys.iter().filter(|key| !known.contains(key));
         problems.extend(
-            unknown.map(|key| format!("metrology/src/data/keys.rs has no key `{key}` of `{}`", kind.name)),
+            unknown.map(|key| format!("metrology/src/data/keys.txt has no key `{key}` of `{}`", kind.name)),
         );
     }
     nothing(&problems);

@@ -105,8 +105,8 @@ impl Row {
     pub(crate) fn expected(&self, tables: &[&Keys]) -> Option<[String; 4]> {
         let table = self.tables.first()?;
         let own = tables.iter().filter(|keys| keys.tables.contains(&table.as_str()));
-        let key = own.flat_map(|keys| keys.keys).find(|key| key.name == self.key)?;
-        Some([key.value.phrase(), key.unit.into(), key.default.into(), key.what.into()])
+        let key = own.flat_map(|keys| &keys.keys).find(|key| key.name == self.key)?;
+        Some([key.phrase.clone(), key.unit.into(), key.default.into(), key.what.into()])
     }
 
     /// Returns whether the row describes that key.
