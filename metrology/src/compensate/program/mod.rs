@@ -3,12 +3,15 @@
 
 mod languages;
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use abbe::analysis::{InverseKinematics, sampling};
+use abbe::analysis::InverseKinematics;
+use abbe::analysis::sampling::vectors::{cross, dot, norm, subtract};
+use abbe::analysis::sampling::{self, JointAxis};
 use abbe::identify::Observation;
-use abbe::{LengthUnit, Manipulator, Pose, Variable, VariableKind};
+use abbe::{Description, LengthUnit, Manipulator, Pose, Variable, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::bounded::{Bounded, UnreadableFile};
@@ -18,7 +21,7 @@ use regex_lite::Captures;
 
 use super::Row;
 use crate::data::{Channel, Data, Map, Scale, Unusable, from_numbers, to_numbers};
-use languages::{LANGUAGES, Language};
+use languages::{BORDER, Fact, LANGUAGES, Language};
 
 /// Number of joints of a joint target.
 const JOINTS: usize = 6;
@@ -49,12 +52,46 @@ pub struct Program {
 struct Point {
     line: u64,
     is_pose: bool,
+    /// What its configuration says of the joints.
+    facts: Vec<Fact>,
+    /// Places of its numbers.
+    stated: Vec<Range<usize>>,
     numbers: Vec<(Range<usize>, f64)>,
 }
 
 /// Place of a joint among the numbers of a joint target, and its scale; no place for a constant,
 /// the zero of its scale.
 type JointChannel = (Option<usize>, Scale);
+
+/// Rotation of a joint by which its axis is found, in rad.
+const STEP: f64 = 0.1;
+/// Number of lines of a position.
+const LINES_OF_A_POSITION: usize = 4;
+/// Sine below which an arm is stretched.
+const STRETCHED: f64 = 1e-3;
+
+/// Returns on which side of axis 1, and of the lower arm, the center of the wrist is, the latter about
+/// axes 2 and 3: sines whose signs change where the arm passes from one configuration into another; `None` for other
+/// machines than arms of six joints.
+fn sides(machine: &dyn Manipulator, q: &[f64]) -> Option<[f64; 3]> {
+    let s = sampling::nominal_parameters(machine.description());
+    let here = machine.pose(q, &s).ok()?.inverse();
+    let axis = |i: usize| {
+        let mut turned = q.to_vec();
+        *turned.get_mut(i)? += STEP;
+        let axis = JointAxis::of_motion(&machine.pose(&turned, &s).ok()?.then(&here));
+        Some((axis, axis.point?))
+    };
+    let [(first, foot), (second, shoulder), (third, elbow), (fourth, wrist), (fifth, _)] =
+        [axis(0)?, axis(1)?, axis(2)?, axis(3)?, axis(4)?];
+    let center = fourth.nearest(fifth.nearest(wrist));
+    let (reach, upper, lower) = (subtract(center, foot), subtract(elbow, shoulder), subtract(center, elbow));
+    Some([
+        dot(cross(first.direction, second.direction), reach) / norm(reach),
+        dot(cross(upper, lower), second.direction) / (norm(upper) * norm(lower)),
+        dot(cross(upper, lower), third.direction) / (norm(upper) * norm(lower)),
+    ])
+}
 
 /// Returns the decimals of a number in a unit that are those of the coherent unit.
 fn decimals(coherent: f64, unit: f64) -> usize {
@@ -77,6 +114,16 @@ pub fn read_frame(transform: &str, length: LengthUnit) -> Result<Pose> {
     frame.pose(&[], &[]).map_err(|error| mistake::whole(FRAME, &error))
 }
 
+/// Warns of lines, if there are any.
+fn warn_of(lines: &[usize], text: &str, notes: &mut dyn Notes) {
+    let named: Vec<String> = lines.iter().take(NAMED).map(usize::to_string).collect();
+    if !named.is_empty() {
+        let more = lines.len() - named.len();
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        notes.warn(&format!("{text}: line {}{more}", named.join(", ")));
+    }
+}
+
 impl Program {
     /// Reads a program; `None` if the ending of the name or the text is not that of one.
     ///
@@ -94,7 +141,9 @@ impl Program {
             Err(error) => (error.into_bytes().into_iter().map(char::from).collect(), true),
         };
         let patterns = language.patterns().filter(|_| language.has_begun(&text));
-        let Some([pose, joints, elsewhere, relative, frame]) = patterns else { return Ok(None) };
+        let Some([pose, joints, elsewhere, relative, frame, configuration]) = patterns else {
+            return Ok(None);
+        };
         let starts: Vec<usize> =
             std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
         let line = |at: usize| starts.partition_point(|start| *start <= at);
@@ -103,6 +152,17 @@ impl Program {
         let start = |found: &Captures<'_>| {
             let at = found.get(0)?.start();
             (!before(at).contains(language.comment)).then_some(at)
+        };
+        // Returns the places of the configuration of a position: behind it, or before it since its bracket.
+        let stated = |found: &Captures<'_>, at: usize| -> Vec<Range<usize>> {
+            let since = starts[line(at).saturating_sub(LINES_OF_A_POSITION)];
+            let (from, to) = match (language.is_configured_behind(), found.get(0)) {
+                (true, Some(all)) => (all.end(), text.len()),
+                _ => (text[since..at].rfind('{').map_or(at, |bracket| since + bracket), at),
+            };
+            let groups = configuration.captures(&text[from..to]);
+            let all = groups.iter().flat_map(Captures::iter).skip(1).flatten();
+            all.map(|one| from + one.start()..from + one.end()).collect()
         };
         let (mut points, mut left) = (Vec::new(), Vec::new());
         for (pattern, is_pose) in [(&pose, true), (&joints, false)] {
@@ -114,7 +174,11 @@ impl Program {
                 }
                 let number = |text: &str| text.parse().unwrap_or(f64::NAN);
                 let numbers = found.iter().skip(1).flatten().map(|one| (one.range(), number(one.as_str())));
-                points.push(Point { line: line(at) as u64, is_pose, numbers: numbers.collect() });
+                let stated = if is_pose { stated(&found, at) } else { Vec::new() };
+                let groups: Vec<&str> = stated.iter().map(|range| &text[range.clone()]).collect();
+                let facts = if groups.is_empty() { Vec::new() } else { (language.facts)(&groups) };
+                let (line, numbers) = (line(at) as u64, numbers.collect());
+                points.push(Point { line, is_pose, facts, stated, numbers });
             }
         }
         let place = |point: &Point| point.numbers[0].0.start;
@@ -155,8 +219,8 @@ impl Program {
     }
 
     /// Returns the commands of the program: a joint target as `map` has it, and for a position the
-    /// nominal joints nearest to those before, from home. `frame` is the pose in `F_0` of the frame
-    /// of positions.
+    /// nominal joints that have most of the configuration it states, of those the nearest to the
+    /// joints before, from home. `frame` is the pose in `F_0` of the frame of positions.
     ///
     /// # Errors
     ///
@@ -179,6 +243,8 @@ impl Program {
         });
         let u: Vec<f64> = u.collect::<Result<_>>()?;
         let channels = self.channels(map)?;
+        let zero: Vec<f64> = channels.iter().map(|(_, scale)| scale.value(0.0)).collect();
+        let (zero, mut others) = (sides(machine, &zero), Vec::new());
         let mut last = sampling::home(description);
         let mut data =
             Data { file: self.path.display().to_string(), files: vec![self.path.clone()], ..Data::default() };
@@ -188,7 +254,22 @@ impl Program {
                     let pose = frame.map_or(pose, |frame| frame.then(&pose));
                     let inverse = inverse.as_ref().map_err(ToString::to_string)?;
                     let all = inverse.solve(&last, &pose).map_err(|error| error.to_string())?;
-                    all.into_iter().next().ok_or_else(|| "out of reach".to_owned())
+                    let count = |q: &Vec<f64>| {
+                        let here = if point.facts.is_empty() { None } else { sides(machine, q) };
+                        self.disagreements(&point.facts, q, &channels, here.zip(zero))
+                    };
+                    let (least, q) = all
+                        .into_iter()
+                        .map(|mut q| {
+                            self.turn(&mut q, &point.facts, &channels, description);
+                            (count(&q), q)
+                        })
+                        .min_by_key(|(count, _)| *count)
+                        .ok_or_else(|| "out of reach".to_owned())?;
+                    if least > 0 {
+                        others.push(point.line as usize);
+                    }
+                    Ok(q)
                 }),
                 false => {
                     let value = |(place, scale): &JointChannel| {
@@ -210,6 +291,9 @@ impl Program {
             }
         }
         self.note(&data, spec, frame.is_some(), notes);
+        let text = "no joints of the nominal machine have all of the configuration that stands there; those that \
+                    have most of it are taken";
+        warn_of(&others, text, notes);
         Ok(data)
     }
 
@@ -230,6 +314,54 @@ impl Program {
             Channel::FromRows(_) => Ok((None, Scale::COHERENT)),
         };
         map.joints.iter().map(channel).collect()
+    }
+
+    /// Counts the facts that do not hold for joints; `sides` are those of these joints, and where
+    /// the joints of the controller are 0.
+    fn disagreements(
+        &self,
+        facts: &[Fact],
+        q: &[f64],
+        channels: &[JointChannel],
+        sides: Option<([f64; 3], [f64; 3])>,
+    ) -> usize {
+        // Nothing is told apart from an arm that is stretched where its joints are 0.
+        let is_other = |i: usize| {
+            sides.filter(|(_, zero)| zero[i].abs() > STRETCHED).map(|(here, zero)| here[i] * zero[i] < 0.0)
+        };
+        let holds = |fact: &Fact| match *fact {
+            Fact::Quadrant(joint, _) | Fact::Negative(joint, _) => {
+                self.angle(q, channels, joint).map(|angle| fact.holds(angle, BORDER))
+            }
+            Fact::Behind(is) => is_other(0).map(|other| other == is),
+            Fact::Bent(is) => {
+                let joint = channels.iter().find(|(place, _)| *place == Some(2));
+                sides.zip(joint).map(|((here, _), (_, scale))| (here[2] * scale.one > 0.0) == is)
+            }
+            Fact::Below(is) => is_other(1).map(|other| other == is),
+        };
+        facts.iter().filter(|fact| holds(fact) == Some(false)).count()
+    }
+
+    /// Returns the angle of a joint of the controller in degrees.
+    fn angle(&self, q: &[f64], channels: &[JointChannel], joint: usize) -> Option<f64> {
+        let i = channels.iter().position(|(place, _)| *place == Some(joint))?;
+        Some(channels[i].1.number(q[i]) * self.language.radians.to_degrees())
+    }
+
+    /// Turns joints by a whole turn whose sign is another than that stated, where their limits
+    /// permit.
+    fn turn(&self, q: &mut [f64], facts: &[Fact], channels: &[JointChannel], description: &Description) {
+        for fact in facts {
+            let Fact::Negative(joint, is) = *fact else { continue };
+            let Some(i) = channels.iter().position(|(place, _)| *place == Some(joint)) else { continue };
+            let turn = if (channels[i].1.one < 0.0) == is { TAU } else { -TAU };
+            let [lower, upper] = description.variables[i].limits;
+            let is_other = self.angle(q, channels, joint).is_some_and(|angle| !fact.holds(angle, BORDER));
+            if is_other && (lower..=upper).contains(&(q[i] + turn)) {
+                q[i] += turn;
+            }
+        }
     }
 
     /// Returns the pose that a position states.
@@ -275,7 +407,8 @@ impl Program {
                  to `{FRAME}`"
             ));
         }
-        let first = data.observations.first().filter(|row| self.points[row.configuration as usize].is_pose);
+        let is_free = |point: &Point| point.is_pose && point.facts.is_empty();
+        let first = data.observations.first().filter(|row| is_free(&self.points[row.configuration as usize]));
         if let Some(row) = first {
             notes.note(&format!(
                 "line {}: the first position is reached with {}, the joints nearest to `home` of the spec; \
@@ -284,19 +417,12 @@ impl Program {
                 number::variables(&row.q, spec)
             ));
         }
-        let lines: Vec<String> = self.left.iter().take(NAMED).map(usize::to_string).collect();
-        if !lines.is_empty() {
-            let more = self.left.len() - lines.len();
-            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-            notes.warn(&format!(
-                "left as they are, as steps, frames, tools or incomplete positions: line {}{more}",
-                lines.join(", ")
-            ));
-        }
+        warn_of(&self.left, "left as they are, as steps, frames, tools or incomplete positions", notes);
     }
 
     /// Returns the program with the numbers of corrected commands, in the bytes of its file. Of
-    /// positions that are not among the rows, the numbers stay.
+    /// positions that are not among the rows, the numbers stay. A configuration is changed where a
+    /// corrected joint is beyond a border of it.
     ///
     /// # Errors
     ///
@@ -313,7 +439,8 @@ impl Program {
         let channels = self.channels(map)?;
         let (mut text, mut end) = (String::with_capacity(self.text.len()), 0);
         for row in rows {
-            let Point { is_pose, numbers, .. } = &self.points[row.corrected.configuration as usize];
+            let Point { is_pose, facts, stated, numbers, .. } =
+                &self.points[row.corrected.configuration as usize];
             let q = &row.corrected.q;
             let written: Vec<(usize, f64, usize)> = if *is_pose {
                 let pose = machine.pose(q, &s).map_err(|error| mistake::whole(&description.name, &error))?;
@@ -336,6 +463,18 @@ impl Program {
                 if 2.0 * (number - old).abs() * 10_f64.powi(decimals as i32) > 1.0 {
                     text += &self.text[end..range.start];
                     text += &format!("{number:.decimals$}");
+                    end = range.end;
+                }
+            }
+            let commanded: Vec<f64> = q.iter().zip(&row.changes).map(|(q, change)| q - change).collect();
+            let angle = |q: &[f64], joint| self.angle(q, &channels, joint);
+            let restated: Vec<Fact> =
+                facts.iter().map(|fact| fact.beyond(|j| angle(&commanded, j), |j| angle(q, j))).collect();
+            if restated != *facts {
+                for (range, new) in stated.iter().zip((self.language.restated)(&restated)) {
+                    let Some(new) = new else { continue };
+                    text += &self.text[end..range.start];
+                    text += &new;
                     end = range.end;
                 }
             }
