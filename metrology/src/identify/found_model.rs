@@ -41,6 +41,8 @@ pub struct FoundModel {
     /// Standard deviation along each axis of the position errors that the model does not explain,
     /// in the length unit; 0 if it explains all.
     pub unexplained: f64,
+    /// Is true if random sources of the spec explain what the instrument does not.
+    pub is_random: bool,
     /// Ranges of joints and inputs covered by the fitted rows.
     pub fitted: Vec<Fitted>,
     /// Uncertainties that were estimated from the data.

@@ -250,6 +250,7 @@ fn found_model(
     let joint_errors = AsJointErrors::new(spec, model, fit);
     let converted = converted.then_some(&joint_errors);
     let explanations = Explanations::new(spec, setup, model, fit);
+    let (unexplained, is_random) = unexplained(setup, solved, rows, left)?;
     let left_of_both = [left, identified.cross_validation.after.rms];
     let found = FoundModel {
         derived: identified.derived.to_vec(),
@@ -260,7 +261,8 @@ fn found_model(
             false => FoundCovariance::new(setup, solved, converted, rows)?,
         },
         estimated: estimated.to_vec(),
-        unexplained: unexplained(setup, solved, rows, left)?,
+        unexplained,
+        is_random,
         ..FoundModel::new(spec, solved, converted, data, setup.pose, left_of_both)
     };
     Ok((found, parameters(setup, solved, spec, converted)))

@@ -13,8 +13,9 @@ use abbe_study::calibration::random_sources;
 const EVALUATED: usize = 500;
 
 /// Returns the standard deviation along each axis of the position errors that neither the model,
-/// nor the instrument, nor the random sources of the spec explain. Returns 0 if they explain all
-/// with 95 % confidence, or if no positions were measured.
+/// nor the instrument, nor the random sources of the spec explain, and whether these sources explain what
+/// the instrument does not. Returns 0 if all is explained with 95 % confidence, or if no positions
+/// were measured.
 ///
 /// ```text
 /// s² = rms²/3 · n/(n − p) − σ² − Σ_k |u_k|²/3
@@ -28,19 +29,20 @@ pub(super) fn unexplained(
     Solved { model, fit, .. }: &Solved,
     rows: &[Observation],
     rms: f64,
-) -> Result<f64, Failure> {
+) -> Result<(f64, bool), Failure> {
     let kept: Vec<&Observation> = fit.kept(rows).collect();
     let numbers = kept.iter().map(|row| row.count()).sum::<usize>();
     let freedom = numbers.saturating_sub(fit.identifiable.rank) as f64;
     if !model.observables.is_empty() || freedom == 0.0 {
-        return Ok(0.0);
+        return Ok((0.0, false));
     }
     let left = rms * rms / 3.0 * numbers as f64 / freedom;
     let inverse_weights = kept.iter().map(|row| 1.0 / row.weight).sum::<f64>() / kept.len() as f64;
-    let known = model.uncertainty.length.powi(2) * inverse_weights + random_variance(setup, &kept)? / 3.0;
+    let instrument = model.uncertainty.length.powi(2) * inverse_weights;
+    let known = instrument + random_variance(setup, &kept)? / 3.0;
     // The mean of ν squares of normal numbers has the standard deviation √(2/ν).
-    let is_significant = left > known * (1.0 + ONE_SIDED_95 * (2.0 / freedom).sqrt());
-    Ok(if is_significant { (left - known).sqrt() } else { 0.0 })
+    let is_beyond = |known: f64| left > known * (1.0 + ONE_SIDED_95 * (2.0 / freedom).sqrt());
+    Ok(if is_beyond(known) { ((left - known).sqrt(), false) } else { (0.0, is_beyond(instrument)) })
 }
 
 /// Returns the mean variance of the tool point caused by the random sources.

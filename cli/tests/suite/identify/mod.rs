@@ -394,3 +394,39 @@ fn an_identified_spec_in_another_folder_keeps_its_tables() {
     assert!(text.contains("file = \"../rail.csv\""), "{text}");
     prints(&["measure", &out, &data, "--map", &workshop.path("results/found.map.toml")]);
 }
+
+/// What the random sources of the spec scatter is not called an error that the model lacks; more
+/// than that is.
+#[test]
+fn random_sources_explain_residuals() {
+    let bench = Bench::new(POINT);
+    // Noise of 0.06 mm: of it the map states 0.02 mm, and random sources as much as is missing.
+    let noisy = std::fs::read_to_string(&bench.map).unwrap().replace("\"0.02 mm\"", "\"0.06 mm\"");
+    let noisy = bench.file("noisy.toml", &noisy);
+    let data =
+        prints(&["simulate", path(&bench.spec), "--map", path(&noisy), "--samples", "120", "--seed", "1"]);
+    let data = bench.file("data.csv", &data);
+    let said = |deviation: Option<f64>| {
+        let source = |axis: &str| {
+            deviation.map_or_else(String::new, |deviation| {
+                format!(
+                    "\n[[source]]\nname = \"scatter {axis}\"\nclass = \"random\"\ndistribution = \"normal\"\nframe = \"wrist 3\"\ne_{axis} = \"{deviation} mm\"\n"
+                )
+            })
+        };
+        let spec = format!("{}{}", shipped("ur5"), ["x", "y", "z"].map(source).concat());
+        let spec = bench.file("nominal.toml", &spec);
+        prints(&["identify", path(&spec), path(&data), "--map", path(&bench.map)])
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let (lacks, explained) =
+        ("errors that the model does not have", "the random sources of the spec explain that");
+    for (deviation, expected, other) in
+        [(None, lacks, explained), (Some(0.0566), explained, lacks), (Some(0.02), lacks, explained)]
+    {
+        let text = said(deviation);
+        assert!(text.contains(expected) && !text.contains(other), "{deviation:?}: {text}");
+    }
+}

@@ -231,6 +231,13 @@ fn residuals(report: &Report) -> String {
                 the stated uncertainties."
             .to_owned();
     }
+    if report.found.is_random {
+        return format!(
+            "The residuals are {} times the stated uncertainty of the instrument; the random sources of the spec \
+             explain that.",
+            digits(report.uncertainty_factor, 3)
+        );
+    }
     residual_verdict(report.uncertainty_factor, report.certainty.p_of_factor, "the model does not have", "")
 }
 
