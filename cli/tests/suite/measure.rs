@@ -6,6 +6,7 @@ use std::path::Path;
 use tempfile::tempdir;
 
 use crate::running::{abbe, full, json, narrow, prints, write};
+use crate::workshop::Workshop;
 
 fn path(path: &Path) -> &str {
     path.to_str().expect("a path is text")
@@ -363,4 +364,39 @@ fn displacements_begin_anew_in_each_setup() {
     let place = heading.iter().position(|name| *name == "whole").unwrap();
     let empty = text.lines().skip(1).filter(|line| line.split(',').nth(place).unwrap().is_empty()).count();
     assert_eq!(empty, 1, "{text}");
+}
+
+/// The columns of a file without a heading are named in its map, in any dialect; a file with one is
+/// read by it.
+#[test]
+fn a_map_names_the_columns_of_a_file_without_a_heading() {
+    let workshop = Workshop::new();
+    let (spec, data, map) = (workshop.path("s.toml"), workshop.path("d.csv"), workshop.path("m.toml"));
+    let rows = fs::read_to_string(&data).unwrap();
+    let (heading, below) = rows.split_once('\n').unwrap();
+    let names: Vec<String> = heading.split(',').map(|name| format!("{name:?}")).collect();
+    let text = fs::read_to_string(&map).unwrap();
+    let named = text.replace("[data]", &format!("[data]\ncolumns = [{}]", names.join(", ")));
+    let put = |name: &str, text: &str| {
+        fs::write(workshop.at(name), text).unwrap();
+        workshop.path(name)
+    };
+    let named = put("named.toml", &named);
+    let bare = put("bare.csv", below);
+    let semicolons = put("semicolons.csv", &below.replace(',', ";").replace('.', ","));
+    let report = |data: &str, map: &str| {
+        let mut report = json(&["measure", &spec, data, "--map", map, "--json"]);
+        report.as_object_mut().unwrap().remove("files");
+        report
+    };
+    let expected = report(&data, &map);
+    for data in [&data, &bare, &semicolons] {
+        assert_eq!(report(data, &named), expected, "{data}");
+    }
+    let run = abbe(&["measure", &spec, &bare, "--map", &map]);
+    let said = run.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(run.status == 2 && said.contains("or give them in the map, as `columns` in `[data]`"), "{said}");
+    let short = put("short.csv", &below.replace('\n', ",1\n"));
+    let run = abbe(&["measure", &spec, &short, "--map", &named]);
+    assert!(run.status == 2 && run.stderr.contains("and the first row has"), "{}", run.stderr);
 }

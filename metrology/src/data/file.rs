@@ -8,8 +8,9 @@ use std::sync::Arc;
 use abbe_spec::bounded::{Bounded, UnreadableFile, not_text};
 use abbe_spec::csv_writer::meant;
 use abbe_spec::diagnostic::Diagnostics;
+use csv::StringRecord;
 
-use super::dialect::Dialect;
+use super::dialect::{Dialect, SEPARATORS};
 use super::preamble::{above_heading, stated_separator};
 use super::record::Record;
 use abbe_study::lines::{Lines, RecordedReader};
@@ -24,7 +25,7 @@ const LARGEST_FILE: u64 = 4 << 30;
 const HEAD: u64 = 1 << 18;
 
 /// Largest number of columns.
-const MOST_COLUMNS: usize = 10_000;
+const MOST_COLUMNS: usize = 50_000;
 
 /// Largest number of rows.
 pub(super) const MOST_ROWS: usize = 2_000_000;
@@ -39,8 +40,8 @@ pub(super) struct File {
 }
 
 impl File {
-    /// Opens a file and reads its heading.
-    pub(super) fn open(file: &Path) -> Result<Self> {
+    /// Opens a file and reads its heading, unless the names of its columns are given.
+    pub(super) fn open(file: &Path, columns: &[String]) -> Result<Self> {
         let name = file.display().to_string();
         let fail = |error: io::Error| unfit(&name, &UnreadableFile::from_error(&error, WANTED));
         let mut input = Bounded::open(file, LARGEST_FILE).map_err(fail)?;
@@ -50,14 +51,24 @@ impl File {
             return Err(unfit(&name, &found));
         }
         let stated = stated_separator(&mut head);
+        let fits = |one: &u8| cells(&head, Dialect::detect(&head, Some(*one))).len() == columns.len();
+        // A first row of numbers has more decimal commas than separators.
+        let stated = stated.or_else(|| SEPARATORS.into_iter().find(fits).filter(|_| !columns.is_empty()));
         let dialect = Dialect::detect(&head, stated);
         if let Some(found) = above_heading(&head, dialect) {
             return Err(unfit(&name, &found));
         }
+        let has_heading = columns.is_empty() || has_heading(&name, &head, dialect, columns)?;
         let (watched, lines) = RecordedReader::new(Cursor::new(head).chain(input));
-        let mut reader = dialect.reader(watched);
-        let heading = reader.headers().map_err(|error| unreadable(&name, &error))?;
-        let heading: Arc<[String]> = heading.iter().map(|name| meant(name).to_owned()).collect();
+        let (reader, heading): (_, Arc<[String]>) = match has_heading {
+            true => {
+                let mut reader = dialect.reader(watched);
+                let heading = reader.headers().map_err(|error| unreadable(&name, &error))?;
+                let heading = heading.iter().map(|name| meant(name).to_owned()).collect();
+                (reader, heading)
+            }
+            false => (dialect.all_records(watched), columns.into()),
+        };
         if heading.len() > MOST_COLUMNS {
             let message = format!("this file has {} columns; the maximum is {MOST_COLUMNS}", heading.len());
             return Err(mistake::with_help(
@@ -82,6 +93,25 @@ impl File {
             Ok(Record::written(line, Arc::clone(&heading), dialect, fields))
         })
     }
+}
+
+/// Returns the cells of the first row.
+fn cells(head: &[u8], dialect: Dialect) -> StringRecord {
+    dialect.all_records(head).into_records().find_map(csv::Result::ok).unwrap_or_default()
+}
+
+/// Returns whether the first row has one of the names that columns would have without a heading.
+fn has_heading(file: &str, head: &[u8], dialect: Dialect, columns: &[String]) -> Result<bool> {
+    let row = cells(head, dialect);
+    if row.iter().any(|cell| columns.iter().any(|name| name == meant(cell))) {
+        return Ok(true);
+    }
+    if row.len() != columns.len() {
+        let message =
+            format!("the map names {} columns, and the first row has {} cells", columns.len(), row.len());
+        return Err(mistake::with_help(file, message, "give `columns` in `[data]` a name for each cell"));
+    }
+    Ok(false)
 }
 
 /// Recognizes a text that is not a table by its first line.

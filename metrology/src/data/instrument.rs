@@ -1,5 +1,6 @@
 //! Instruments that are read one number at a time, several of them in one file.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use abbe::analysis::sampling::norm;
@@ -164,11 +165,8 @@ impl Instruments {
     pub(super) fn read(&self, numbers: &[Option<f64>]) -> Result<Vec<Option<f64>>, String> {
         let skipped = usize::from(self.setup.is_some());
         let setup = numbers[..skipped].first().copied().flatten();
-        let names = self.distinct_columns();
-        let cell = |column: &Column| {
-            let place = names.iter().position(|other| other.name == column.name)?;
-            numbers.get(skipped + place).copied().flatten()
-        };
+        let (_, places) = self.distinct_columns();
+        let cell = |column: &Column| *numbers.get(skipped + places.get(&*column.name)?)?;
         let mut readings = vec![None; self.observables.len()];
         let read = self.read_in(setup);
         if read.is_empty() {
@@ -197,31 +195,35 @@ impl Instruments {
     /// Converts readings to the numbers of a row, in the order of [`read`](Self::read).
     pub(super) fn numbers(&self, readings: &[Option<f64>]) -> Vec<Option<f64>> {
         let mut numbers: Vec<Option<f64>> = self.setup.iter().map(|_| self.setup_of(readings)).collect();
-        for column in self.distinct_columns() {
-            let number = self.list.iter().find_map(|instrument| {
-                let place = instrument.columns.iter().position(|own| own.name == column.name)?;
-                readings[instrument.observables.start + place].map(|value| value / instrument.factor)
-            });
-            numbers.push(number);
+        let (columns, places) = self.distinct_columns();
+        let mut of_columns = vec![None; columns.len()];
+        for instrument in &self.list {
+            for (column, reading) in instrument.columns.iter().zip(&readings[instrument.observables.clone()])
+            {
+                let number = &mut of_columns[places[&*column.name]];
+                *number = number.or(reading.map(|value| value / instrument.factor));
+            }
         }
+        numbers.extend(of_columns);
         numbers
     }
 
     /// Returns the columns of setup and readings.
     pub(super) fn columns(&self) -> Vec<&Column> {
-        self.setup.iter().chain(self.distinct_columns()).collect()
+        self.setup.iter().chain(self.distinct_columns().0).collect()
     }
 
     /// Returns the distinct columns of all instruments: one that is used in several setups has one
-    /// column.
-    fn distinct_columns(&self) -> Vec<&Column> {
-        let mut distinct: Vec<&Column> = Vec::new();
+    /// column; and their places by name.
+    fn distinct_columns(&self) -> (Vec<&Column>, HashMap<&str, usize>) {
+        let (mut distinct, mut places) = (Vec::new(), HashMap::new());
         for column in self.list.iter().flat_map(|instrument| &instrument.columns) {
-            if distinct.iter().all(|other| other.name != column.name) {
+            places.entry(&*column.name).or_insert_with(|| {
                 distinct.push(column);
-            }
+                distinct.len() - 1
+            });
         }
-        distinct
+        (distinct, places)
     }
 }
 

@@ -66,6 +66,8 @@ impl Layout {
 pub struct Map {
     /// Title.
     pub title: String,
+    /// Names of the columns of a file without a heading; empty if it has one.
+    pub(super) given_columns: Vec<String>,
     /// Standard deviations of the instrument.
     pub uncertainty: Uncertainty,
     /// The standard deviation of positions, and of rotations, is estimated from the data;
@@ -129,6 +131,7 @@ impl Map {
         });
         Self {
             title: String::new(),
+            given_columns: Vec::new(),
             uncertainty: Uncertainty { length: 1.0, angle: 1.0 },
             is_estimated: [false; 2],
             base: Base::Known,

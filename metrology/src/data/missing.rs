@@ -22,8 +22,12 @@ impl Map {
                 name(first),
                 name(last)
             );
-            let help =
-                not_a_heading(header, &wanted).unwrap_or_else(|| format!("the columns are: {there_are}"));
+            let help = match not_a_heading(header, &wanted) {
+                Some(why) if header.len() > 1 => {
+                    format!("{why}; or give them in the map, as `columns` in `[data]`")
+                }
+                other => other.unwrap_or_else(|| format!("the columns are: {there_are}")),
+            };
             let mistake = Diagnostic { span: first.span.clone(), ..Diagnostic::whole_file(message) }
                 .label("first missing column")
                 .help(help);

@@ -132,6 +132,7 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
     };
     Some(Map {
         title: head.optional_text("title"),
+        given_columns: given_columns(&head)?,
         uncertainty: Uncertainty { length: uncertainty(length?, false), angle: uncertainty(angle?, true) },
         is_estimated: [length?.is_none(), angle?.is_none()],
         base,
@@ -155,6 +156,12 @@ fn read_map(root: &Section<'_>, spec: &Spec) -> Option<Map> {
         text: Arc::clone(&root.document.text),
         files: root.document.files.take(),
     })
+}
+
+/// Reads the names of the columns of a file without a heading.
+fn given_columns(head: &Section<'_>) -> Option<Vec<String>> {
+    let Some(item) = head.get("columns") else { return Some(Vec::new()) };
+    item.array("a list of names")?.iter().map(|item| Some(column(item)?.name)).collect()
 }
 
 fn is_camera(layout: &Layout) -> bool {

@@ -3,7 +3,7 @@
 //! Rows with the calendar of their times.
 
 use std::borrow::Cow;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -75,7 +75,7 @@ impl Data {
 
     /// Returns the names of the columns of a file.
     pub fn heading(file: &Path) -> Result<Vec<String>> {
-        Source::File(file).open().map(|file| file.heading.to_vec())
+        Source::File(file).open(&[]).map(|file| file.heading.to_vec())
     }
 
     /// Reads wanted poses of the tool, which other columns of the map measure; repetitions are
@@ -90,13 +90,17 @@ impl Data {
     }
 
     fn rows(source: Source<'_>, map: &Map, columns: Wanted, once: bool) -> Result<Self> {
-        let table = source.open()?;
+        let table = source.open(&map.given_columns)?;
         let header = &Arc::clone(&table.heading);
         // With measurements, their columns include the setup.
         let setup = map.setup().filter(|_| columns == Wanted::Commanded);
         let commanded: Vec<&Column> = map.commanded().chain(setup).collect();
         let measured = if columns == Wanted::Measured { map.measured() } else { Vec::new() };
-        let place = |column: &&Column| header.iter().position(|name| *name == column.name);
+        let mut by_name = HashMap::new();
+        for (place, name) in header.iter().enumerate() {
+            by_name.entry(name).or_insert((place, 0)).1 += 1;
+        }
+        let place = |column: &&Column| by_name.get(&column.name).map(|(place, _)| *place);
         // A plan does not need a column of stations.
         let is_there = |column: &&Column| columns == Wanted::Measured || place(column).is_some();
         let station = map.stations.column.as_ref().filter(is_there);
@@ -107,7 +111,7 @@ impl Data {
             return Err(map.missing(&source.name(), &missing, header));
         }
         let wanted = commanded.iter().chain(&measured);
-        let twice = |column: &&&Column| header.iter().filter(|name| **name == column.name).count() > 1;
+        let twice = |column: &&&Column| by_name.get(&column.name).is_some_and(|(_, count)| *count > 1);
         if let Some(column) = wanted.into_iter().find(twice) {
             let message = format!("duplicate column `{}`", column.name.escape_debug());
             return Err(mistake::with_help(source.name(), message, "rename one of them in the heading"));
@@ -389,7 +393,7 @@ impl Dated {
         let source = source.into();
         let data = Data::read_wanted(source, map)?;
         let Some(column) = &map.time else { return Ok(Self { data, calendars: None }) };
-        let table = source.open()?;
+        let table = source.open(&map.given_columns)?;
         let place = table.heading.iter().position(|name| *name == column.name);
         let place = place.ok_or_else(|| map.missing(&source.name(), &[column], &table.heading))?;
         let mut calendars = Vec::with_capacity(data.observations.len());

@@ -85,7 +85,7 @@ struct Readings {
 
 /// Reads runs.
 pub(crate) fn runs(source: Source<'_>) -> Result<Runs> {
-    let Opened { heading, records, .. } = source.open()?;
+    let Opened { heading, records, .. } = source.open(&[])?;
     let name = source.name();
     let refuse = |message: String, help: &str| Err(mistake::with_help(&name, message, help));
     let parts: Vec<(String, Option<&str>)> = heading.iter().map(|cell| split(cell)).collect();

@@ -111,11 +111,11 @@ impl Source<'_> {
         }
     }
 
-    /// Reads the heading.
-    pub(super) fn open(&self) -> Result<Opened> {
+    /// Reads the heading, unless the names of the columns of the file are given.
+    pub(super) fn open(&self, columns: &[String]) -> Result<Opened> {
         match self {
             Self::File(file) => {
-                let file = File::open(file)?;
+                let file = File::open(file, columns)?;
                 let (heading, dialect) = (Arc::clone(&file.heading), file.dialect.words());
                 Ok(Opened { heading, dialect, records: Box::new(file.records()) })
             }
@@ -155,7 +155,7 @@ pub(crate) struct RawTable {
 
 /// Reads all rows.
 pub(crate) fn raw_table(source: Source<'_>) -> Result<RawTable> {
-    let Opened { heading, records, .. } = source.open()?;
+    let Opened { heading, records, .. } = source.open(&[])?;
     let heading = heading.to_vec();
     if source.file().is_some() && heading.iter().any(|name| name.parse::<f64>().is_ok()) {
         let message = "the first line of this file contains numbers";

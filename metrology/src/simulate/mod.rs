@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use abbe::Manipulator;
 use abbe::analysis::{JointSamples, Workspace, random_joint_samples};
-use abbe::identify::{Chance, Failure, Observation, Simulated, Uncertainty};
+use abbe::identify::{Chance, Failure, Measurement, Observation, Simulated, Uncertainty};
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
@@ -248,7 +248,12 @@ impl Simulate {
         };
         let stations = self.map.station_names();
         let tried = Planned::Sampled { samples: self.samples(manipulator, tries)?, stations: stations.len() };
-        let rows = (0..tried.len()).map(|i| tried.row(i, &self.map).into_owned());
+        let is_camera = self.map.instruments().is_some_and(|all| all.camera.is_some());
+        let rows = (0..tried.len()).map(|i| {
+            let row = tried.row(i, &self.map).into_owned();
+            // A view has two readings of each corner, and few samples become views.
+            if is_camera { Observation { measured: Measurement::Readings(Vec::new()), ..row } } else { row }
+        });
         let observations =
             readable_configurations(setup, &self.map, rows.collect(), count).about(&self.machine.origin)?;
         if observations.is_empty() {

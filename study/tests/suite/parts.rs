@@ -108,6 +108,21 @@ fn parts_survive_a_round_trip() {
     }
 }
 
+/// No number of a part is beyond what sums of errors can hold, wherever it stands.
+#[test]
+fn impossible_numbers_are_refused() {
+    let [part, _] = halves(&questions()[0]);
+    for pointer in
+        ["/gathered/budget/position/tallies/0/largest/0", "/gathered/budget/position/squares/0/sums/0"]
+    {
+        for number in [1e308, -1e200] {
+            let mut content = content(&part);
+            *content.pointer_mut(pointer).unwrap() = number.into();
+            refused(&content, "this part has the impossible number");
+        }
+    }
+}
+
 /// Holds that parts merge to the report of a single run; the calibration is one source of it.
 #[test]
 fn halves_merge_to_the_whole() {

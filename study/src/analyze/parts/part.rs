@@ -16,6 +16,9 @@ use crate::{Notes, Result, analyze::sweep::PartialAnalysis, finite, hash, mistak
 /// Prefix of each part file, followed by the format version.
 const BEGINNING: &str = "abbe part ";
 const VERSION: &str = "4";
+/// Largest number of a part.
+const LARGEST: f64 = 1e100;
+
 /// Length of the checksum line at the end, newline included.
 const CHECKSUM: usize = 65;
 /// Largest file that is read, in bytes.
@@ -120,6 +123,11 @@ impl Part {
             return Err(damaged());
         }
         let json = &content[BEGINNING.len() + end + 1..];
+        // Sums of errors overflow beyond this, and no machine has such errors.
+        let is_large = |word: &&str| word.parse::<f64>().is_ok_and(|number| number.abs() > LARGEST);
+        if let Some(number) = json.split([',', ':', '[', ']', '{', '}']).find(is_large) {
+            return Err(wrong(&format!("this part has the impossible number {number}"), "create it again"));
+        }
         let part: Result<Self, String> = serde_json::from_str(json).map_err(|error| error.to_string());
         part.and_then(|part| part.request.check_draws().map(|()| part)).map_err(|message| {
             wrong(
