@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import options
 from ._fields import Fields, Figure, Page
+from .spec import Manipulator, Source
 from .reports import (
     AllocateReport,
     AnalyzeReport,
@@ -40,6 +41,8 @@ _Progress: TypeAlias = Callable[[int, int], object]
 _Path: TypeAlias = str | PathLike[str]
 # The path of a CSV file, or a table with the columns of a map.
 _Measured: TypeAlias = _Path | Mapping[str, ArrayLike] | Any
+# The path of a study, or a study as a dict.
+_Study: TypeAlias = _Path | Mapping[str, Any]
 # The path of a map, a shipped name, a map as a dict, or its text.
 _Map: TypeAlias = _Path | Mapping[str, Any]
 # A number in the length unit of the spec, or text with a unit.
@@ -76,6 +79,14 @@ class Machine:
         >>> changed = abbe.load("pps").with_parameters(x="25 cm").disable("assembly")
         >>> abbe.load(text=changed.text).parameters["x"]
         250.0
+        """
+    def with_source(self, source: Source | Mapping[str, Any]) -> Machine:
+        """Returns a machine with one more error source: an `abbe.spec.Source`, or a dict of its keys.
+
+        >>> import abbe
+        >>> bent = {"name": "bent", "class": "repeatable", "frame": "elbow", "e_z": "0.1 mm"}
+        >>> abbe.load("ur5").with_source(bent).sources[-1]
+        'bent'
         """
     @property
     def title(self) -> str:
@@ -324,9 +335,10 @@ class Machine:
     @overload
     def analyze(
         self,
-        study: _Path | None = None,
+        study: _Study | None = None,
         *,
         study_text: str | None = None,
+        q: _Joints | None = None,
         tolerance: str | list[str] | None = None,
         monte_carlo: int = 0,
         seed: int | None = None,
@@ -338,9 +350,10 @@ class Machine:
         """Computes the errors of every source, and of all sources together, over a workspace, and the
         verdict on the tolerances of the study.
 
-        `study`: path of a study file; `study_text`: its text. Without both: the study beside the
+        `study`: path of a study file, or a study as a dict; `study_text`: its text. Without both: the study beside the
         spec, or the study shipped with the manipulator, or joint samples. `tolerance`: in place of
-        that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list.
+        that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list. `q`:
+        configurations (m, nq) in place of the study's workspace, with nominal inputs.
         `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of the draws
         and of the study's random samples. `figures`: collect data for `.report(folder)` and
         `.figure(name)`.
@@ -358,9 +371,10 @@ class Machine:
     @overload
     def analyze(
         self,
-        study: _Path | None = None,
+        study: _Study | None = None,
         *,
         study_text: str | None = None,
+        q: _Joints | None = None,
         tolerance: str | list[str] | None = None,
         monte_carlo: int = 0,
         seed: int | None = None,
@@ -372,9 +386,10 @@ class Machine:
         """Computes the errors of every source, and of all sources together, over a workspace, and the
         verdict on the tolerances of the study.
 
-        `study`: path of a study file; `study_text`: its text. Without both: the study beside the
+        `study`: path of a study file, or a study as a dict; `study_text`: its text. Without both: the study beside the
         spec, or the study shipped with the manipulator, or joint samples. `tolerance`: in place of
-        that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list.
+        that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list. `q`:
+        configurations (m, nq) in place of the study's workspace, with nominal inputs.
         `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of the draws
         and of the study's random samples. `figures`: collect data for `.report(folder)` and
         `.figure(name)`.
@@ -389,7 +404,7 @@ class Machine:
         With `shard=(i, n)`, i from 1 to n, computes part i of n of the workspace and returns a
         Part; `abbe.merge` of all parts is the report.
         """
-    def explore(self, study: _Path | None = None, *, study_text: str | None = None, height: int = 900) -> Page:
+    def explore(self, study: _Study | None = None, *, study_text: str | None = None, height: int = 900) -> Page:
         """Returns a live page of the machine: joints, inputs, parameters and the factor of each source
         can be varied, and it shows the errors there by the generated code. Notebooks show it in a
         frame; `.save(path)` writes it as a file that needs no network.
@@ -403,7 +418,7 @@ class Machine:
         """
     def allocate(
         self,
-        study: _Path | None = None,
+        study: _Study | None = None,
         *,
         study_text: str | None = None,
         tolerance: str | list[str] | None = None,
@@ -431,7 +446,7 @@ class Machine:
         """
     def bound(
         self,
-        study: _Path | None = None,
+        study: _Study | None = None,
         *,
         study_text: str | None = None,
         tolerance: str | list[str] | None = None,
@@ -530,7 +545,7 @@ class Machine:
         criterion: options.Criterion = "v",
         candidates: int = 500,
         model_error: _Length | None = None,
-        study: _Path | None = None,
+        study: _Study | None = None,
         seed: int | None = None,
         progress: _Progress | None = None,
     ) -> PlanReport:
@@ -774,6 +789,8 @@ class Table:
         """Names of the columns."""
     def to_dict(self) -> dict[str, list[Any]]:
         """Returns the columns by name, as lists with None for missing values."""
+    def __getitem__(self, name: str, /) -> Any:
+        """"""
     def __len__(self) -> int: ...
     def __reduce__(self) -> tuple[Any, tuple[str]]: ...
     def __arrow_c_schema__(self) -> object: ...
@@ -831,9 +848,9 @@ def import_urdf(
     >>> abbe.import_urdf(text=urdf).load()
     Machine('arm': 1 frame, 1 joint variable, m)
     """
-def load(spec: str | PathLike[str] | None = None, *, text: str | None = None) -> Machine:
-    """Loads a manipulator from a spec file, by a shipped name (see `abbe.shipped()`), or from the
-    `text` of a spec.
+def load(spec: str | PathLike[str] | Manipulator | None = None, *, text: str | None = None) -> Machine:
+    """Loads a manipulator from a spec file, by a shipped name (see `abbe.shipped()`), from an
+    `abbe.spec.Manipulator`, or from the `text` of a spec.
 
     Raises SpecError, with place and remedy, if the spec is wrong.
 

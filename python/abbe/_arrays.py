@@ -1,10 +1,9 @@
 """Conversion of arguments to float64 arrays. Imported on first use, because importing NumPy is slow."""
 
 import io
-import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from csv import writer
-from numbers import Integral, Real
+from numbers import Real
 
 import numpy as np
 
@@ -23,29 +22,6 @@ def numbers(value, what, names):
 def among(value, names):
     """Return the columns of a table that are among `names`, as a dict; an empty one of anything else than a table."""
     return {name: _real(value[name], name) for name in _columns(value) or () if name in names}
-
-
-def toml(value):
-    """Format a dict as TOML, one line per key, with tables inline."""
-    return "".join(f"{_key(name)} = {_inline(each)}\n" for name, each in value.items())
-
-
-def _inline(value):
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_key(name)} = {_inline(each)}" for name, each in value.items()) + " }"
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)
-    if isinstance(value, Real):
-        return repr(int(value) if isinstance(value, Integral) else float(value))
-    if isinstance(value, Iterable):
-        return "[" + ", ".join(map(_inline, value)) + "]"
-    raise TypeError(f"a map has texts, numbers, lists and dicts, not {type(value).__name__}")
-
-
-def _key(name):
-    return name if name.isidentifier() and name.isascii() else json.dumps(name, ensure_ascii=False)
 
 
 def columns(value, what, wanted):

@@ -1,12 +1,12 @@
 //! Factors of the error sources that keep a tolerance at least cost.
 
-use std::{path::PathBuf, sync::Arc};
+use std::sync::Arc;
 
 use abbe_report::views;
 use abbe_study::allocate::Allocate;
 use pyo3::prelude::*;
 
-use crate::job::{self, Tolerances, run};
+use crate::job::{self, GivenStudy, Tolerances, run};
 use crate::{Machine, Report};
 
 #[pymethods]
@@ -33,16 +33,17 @@ impl Machine {
     fn allocate(
         &self,
         py: Python<'_>,
-        study: Option<PathBuf>,
+        study: Option<GivenStudy>,
         study_text: Option<&str>,
         tolerance: Option<Tolerances>,
         loosen: bool,
         threads: Option<usize>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Report>> {
+        let (study, study_text) = GivenStudy::new(study, study_text);
         let (report, notes) = run(py, threads, progress, |notes| {
             let machine = self.unchanged.clone();
-            let mut study = job::study(study.as_deref(), study_text, &machine)?;
+            let mut study = job::study(study.as_deref(), study_text.as_deref(), &machine)?;
             study.limit(&Tolerances::texts(tolerance), &machine.spec)?;
             let mut job = Allocate::new(machine, study);
             self.changes()?.iter().for_each(|changes| job.change(changes));

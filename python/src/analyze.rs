@@ -2,16 +2,18 @@
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use abbe_study::analyze::Analyze;
 use abbe_study::analyze::options::DRAWS;
 use abbe_study::analyze::parts::{AnalysisRequest, FileText, Part, Shard};
 use abbe_study::explore::Explore;
 use abbe_study::{Notes, Result};
+use numpy::PyUntypedArrayMethods;
 use pyo3::{exceptions::PyValueError, prelude::*};
 
-use crate::job::{self, Tolerances, run, within};
+use crate::arrays::{numbers, tuple};
+use crate::job::{self, GivenStudy, Tolerances, run, within};
 use crate::machine::Machine;
 use crate::part::analysis;
 
@@ -29,6 +31,21 @@ impl Machine {
         let mut job = Analyze::new(self.unchanged.clone(), study);
         self.changes()?.iter().for_each(|changes| job.change(changes, notes));
         Ok(job)
+    }
+
+    /// Returns the rows of configurations of an argument.
+    fn configurations(&self, q: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<f64>>> {
+        let array = numbers(q, "q", Some(self.variable_names.bind(q.py())))?;
+        let (values, count) = (array.as_slice()?, self.machine.spec.variables.len());
+        if array.shape().len() > 2 || array.shape().last() != Some(&count) || values.is_empty() {
+            let shape = tuple(array.shape());
+            let message = format!("`q` has shape {shape}: give configurations (m, {count}), one or more");
+            return Err(PyValueError::new_err(message));
+        }
+        if !values.iter().all(|value| value.is_finite()) {
+            return Err(PyValueError::new_err("`q` has a number that is not finite"));
+        }
+        Ok(values.chunks_exact(count).map(<[f64]>::to_vec).collect())
     }
 
     /// Returns the question of an analysis with the texts of its files and default options.
@@ -57,9 +74,10 @@ impl Machine {
     /// Computes the errors of every source, and of all sources together, over a workspace, and the
     /// verdict on the tolerances of the study.
     ///
-    /// `study`: path of a study file; `study_text`: its text. Without both: the study beside the
+    /// `study`: path of a study file, or a study as a dict; `study_text`: its text. Without both: the study beside the
     /// spec, or the study shipped with the manipulator, or joint samples. `tolerance`: in place of
-    /// that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list.
+    /// that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list. `q`:
+    /// configurations (m, nq) in place of the study's workspace, with nominal inputs.
     /// `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of the draws
     /// and of the study's random samples. `figures`: collect data for `.report(folder)` and
     /// `.figure(name)`.
@@ -73,12 +91,13 @@ impl Machine {
     ///
     /// With `shard=(i, n)`, i from 1 to n, computes part i of n of the workspace and returns a
     /// Part; `abbe.merge` of all parts is the report.
-    #[pyo3(signature = (study=None, *, study_text=None, tolerance=None, monte_carlo=0, seed=None, figures=true, shard=None, threads=None, progress=None))]
+    #[pyo3(signature = (study=None, *, study_text=None, q=None, tolerance=None, monte_carlo=0, seed=None, figures=true, shard=None, threads=None, progress=None))]
     fn analyze<'py>(
         &self,
         py: Python<'py>,
-        study: Option<PathBuf>,
+        study: Option<GivenStudy>,
         study_text: Option<&str>,
+        q: Option<&Bound<'py, PyAny>>,
         tolerance: Option<Tolerances>,
         monte_carlo: usize,
         seed: Option<u64>,
@@ -87,14 +106,21 @@ impl Machine {
         threads: Option<usize>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let (study, study_text) = GivenStudy::new(study, study_text);
+        let q = q.map(|q| self.configurations(q)).transpose()?;
         let tolerances = Tolerances::texts(tolerance);
         let monte_carlo = Some(monte_carlo).filter(|draws| *draws > 0);
         let monte_carlo = monte_carlo.map(|draws| within("monte_carlo", draws, DRAWS)).transpose()?;
         if let Some((number, of)) = shard {
+            if q.is_some() {
+                return Err(PyValueError::new_err(
+                    "`shard` divides a workspace, and `q` is none: give one of them",
+                ));
+            }
             let shard = Shard::new(number, of)
                 .map_err(|message| PyValueError::new_err(format!("`shard`: {message}")))?;
             let (part, _) = run(py, threads, progress, |notes| {
-                let question = self.question(study.as_deref(), study_text)?;
+                let question = self.question(study.as_deref(), study_text.as_deref())?;
                 Part::new(
                     AnalysisRequest { tolerances, monte_carlo, seed, figures, ..question },
                     shard,
@@ -103,18 +129,22 @@ impl Machine {
             })?;
             return Ok(Bound::new(py, crate::part::Part(part))?.into_any());
         }
-        let ((report, job), notes) = run(py, threads, progress, |notes| {
-            let mut job = self.job(study.as_deref(), study_text, &tolerances, notes)?;
+        let ((report, job, has_q), notes) = run(py, threads, progress, |notes| {
+            let mut job = self.job(study.as_deref(), study_text.as_deref(), &tolerances, notes)?;
+            let has_q = q.is_some();
+            if let Some(q) = q {
+                job.restrict(q, notes);
+            }
             job.monte_carlo = monte_carlo;
             job.seed = seed;
             job.figures = figures;
-            Ok((job.run(notes)?, job))
+            Ok((job.run(notes)?, job, has_q))
         })?;
         // A command names files, or shipped machines and studies.
         let is_named = job.machine().file.is_some() || job.machine().shipped.is_some();
         let study = study.map(|study| study.to_string_lossy().into_owned());
         let live = Explore { analysis: Cow::Owned(job), study, residuals: None };
-        let live = Some(live).filter(|_| is_named && study_text.is_none());
+        let live = Some(live).filter(|_| is_named && study_text.is_none() && !has_q);
         Ok(analysis(py, report, live, notes)?.into_bound(py).into_any())
     }
 }

@@ -1,6 +1,6 @@
 //! Certified upper bounds of the errors of a machine.
 
-use std::{path::PathBuf, sync::Arc};
+use std::sync::Arc;
 
 use abbe_bound::Effort;
 use abbe_report::views;
@@ -8,7 +8,7 @@ use abbe_study::bound::Bound as Job;
 use abbe_study::bound::options::{BOXES, Gap};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
-use crate::job::{self, Tolerances, run, seconds, within};
+use crate::job::{self, GivenStudy, Tolerances, run, seconds, within};
 use crate::{Machine, Report};
 
 #[pymethods]
@@ -44,7 +44,7 @@ impl Machine {
     fn bound(
         &self,
         py: Python<'_>,
-        study: Option<PathBuf>,
+        study: Option<GivenStudy>,
         study_text: Option<&str>,
         tolerance: Option<Tolerances>,
         gap: f64,
@@ -58,9 +58,10 @@ impl Machine {
             Gap::new(gap).map_err(|message| PyValueError::new_err(format!("`gap`: {message}")))?.share();
         let boxes = within("boxes", boxes, BOXES.range)?;
         let time = seconds("time", time)?;
+        let (study, study_text) = GivenStudy::new(study, study_text);
         let (report, notes) = run(py, threads, progress, |notes| {
             let machine = self.unchanged.clone();
-            let mut study = job::study(study.as_deref(), study_text, &machine)?;
+            let mut study = job::study(study.as_deref(), study_text.as_deref(), &machine)?;
             study.limit(&Tolerances::texts(tolerance), &machine.spec)?;
             let mut job = Job::new(machine.clone(), study);
             self.changes()?.iter().for_each(|changes| job.change(changes));

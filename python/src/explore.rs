@@ -1,10 +1,11 @@
 //! Live pages.
 
-use std::{borrow::Cow, path::PathBuf};
+use std::borrow::Cow;
 
 use abbe_study::explore::Explore;
 use pyo3::prelude::*;
 
+use crate::job::GivenStudy;
 use crate::{Machine, run};
 
 #[pymethods]
@@ -23,12 +24,13 @@ impl Machine {
     fn explore<'py>(
         &self,
         py: Python<'py>,
-        study: Option<PathBuf>,
+        study: Option<GivenStudy>,
         study_text: Option<&str>,
         height: u32,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let (study, study_text) = GivenStudy::new(study, study_text);
         let (report, _) = run(py, None, None, |notes| {
-            let analysis = Cow::Owned(self.job(study.as_deref(), study_text, &[], notes)?);
+            let analysis = Cow::Owned(self.job(study.as_deref(), study_text.as_deref(), &[], notes)?);
             let study = study.as_ref().map(|study| study.to_string_lossy().into_owned());
             Explore { analysis, study, residuals: None }.run(notes)
         })?;

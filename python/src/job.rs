@@ -6,7 +6,7 @@
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -17,7 +17,7 @@ use abbe_study::options::{Choices, THREADS, quantity};
 use abbe_study::{Notes, Result, Study};
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyString;
+use pyo3::types::{PyDict, PyString};
 
 use crate::failure::{panicked, spec_error};
 
@@ -157,6 +157,37 @@ pub(crate) fn one_of<'n>(names: impl Iterator<Item = &'n str>) -> String {
 pub(crate) fn seconds(name: &str, value: Option<f64>) -> PyResult<Option<Duration>> {
     let time = value.map(Duration::try_from_secs_f64).transpose();
     time.map_err(|error| PyValueError::new_err(format!("`{name}`: {error}")))
+}
+
+/// Formats a dict, or an object of `abbe.spec`, as TOML.
+pub(crate) fn toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    value.py().import("abbe._toml")?.getattr("toml")?.call1((value,))?.extract()
+}
+
+/// Study of an argument: the path of a file, or a dict as its text.
+#[derive(Default)]
+pub(crate) struct GivenStudy {
+    pub(crate) file: Option<PathBuf>,
+    pub(crate) text: Option<String>,
+}
+
+impl<'py> FromPyObject<'_, 'py> for GivenStudy {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        match value.is_instance_of::<PyDict>() {
+            true => Ok(Self { file: None, text: Some(toml(&value)?) }),
+            false => Ok(Self { file: Some(value.extract()?), text: None }),
+        }
+    }
+}
+
+impl GivenStudy {
+    /// Returns the file and the text of the arguments `study` and `study_text`.
+    pub(crate) fn new(study: Option<Self>, text: Option<&str>) -> (Option<PathBuf>, Option<String>) {
+        let study = study.unwrap_or_default();
+        (study.file, study.text.or_else(|| text.map(str::to_owned)))
+    }
 }
 
 /// Reads the study of a file or of a text; without both, returns the study that belongs to the

@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBool, PyDict, PyString, PyTuple};
 
 use crate::failure::{guarded, spec_error};
+use crate::job::toml;
 use crate::layout::Layout;
 
 /// Manipulator, read from a spec and ready to be evaluated. Immutable: methods that change it
@@ -108,8 +109,8 @@ fn find_machine(origin: &str, text: Option<&str>) -> Result<abbe_study::Machine>
     }
 }
 
-/// Loads a manipulator from a spec file, by a shipped name (see `abbe.shipped()`), or from the
-/// `text` of a spec.
+/// Loads a manipulator from a spec file, by a shipped name (see `abbe.shipped()`), from an
+/// `abbe.spec.Manipulator`, or from the `text` of a spec.
 ///
 /// Raises SpecError, with place and remedy, if the spec is wrong.
 ///
@@ -124,6 +125,10 @@ pub(crate) fn load(
     text: Option<String>,
 ) -> PyResult<Machine> {
     guarded(|| match (spec, text) {
+        (Some(spec), None) if spec.hasattr("to_toml")? => {
+            let text = spec.call_method0("to_toml")?.extract()?;
+            restore(py, "text", Some(text), "[]")
+        }
         (Some(spec), None) => {
             let path: String = py.import("os")?.call_method1("fspath", (spec,))?.extract()?;
             let read = || {
@@ -187,6 +192,19 @@ impl Machine {
         changed_text(&text, &self.unchanged.spec, &self.machine.spec).ok_or_else(|| {
             PyValueError::new_err("the text of this spec has no place for the changes of this machine")
         })
+    }
+
+    /// Returns a machine with one more error source: an `abbe.spec.Source`, or a dict of its keys.
+    ///
+    /// >>> import abbe
+    /// >>> bent = {"name": "bent", "class": "repeatable", "frame": "elbow", "e_z": "0.1 mm"}
+    /// >>> abbe.load("ur5").with_source(bent).sources[-1]
+    /// 'bent'
+    fn with_source(&self, py: Python<'_>, source: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let sources = PyDict::new(py);
+        sources.set_item("source", [source])?;
+        let text = format!("{}\n{}", self.spec_text(py)?, toml(&sources)?);
+        restore(py, &self.unchanged.origin, Some(text), "[]")
     }
 
     /// Title of the manipulator.

@@ -67,9 +67,7 @@ impl Machine {
             Err(_) => None,
         };
         let text = match text {
-            None if map.is_instance_of::<PyDict>() => {
-                Some(py.import("abbe._arrays")?.getattr("toml")?.call1((map,))?.extract()?)
-            }
+            None if map.is_instance_of::<PyDict>() => Some(crate::job::toml(map)?),
             text => text,
         };
         let read = match text {

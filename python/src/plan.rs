@@ -6,10 +6,9 @@ use std::{path::PathBuf, sync::Arc};
 use abbe_metrology::plan::options::{CANDIDATES, COUNT, CRITERIA};
 use abbe_metrology::plan::{Choice, Plan, Sets};
 use abbe_report::views;
-use abbe_study::Study;
 use pyo3::prelude::*;
 
-use crate::job::{length, named, run, within};
+use crate::job::{self, GivenStudy, length, named, run, within};
 use crate::{Machine, Report};
 
 #[pymethods]
@@ -35,7 +34,7 @@ impl Machine {
         criterion: &str,
         candidates: usize,
         model_error: Option<&Bound<'_, PyAny>>,
-        study: Option<PathBuf>,
+        study: Option<GivenStudy>,
         seed: Option<u64>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Report>> {
@@ -45,11 +44,12 @@ impl Machine {
         let model_error =
             model_error.map(|value| length("model_error", value, &self.machine.spec)).transpose()?;
         let map = self.map(map)?;
+        let (study, study_text) = GivenStudy::new(study, None);
         let ((job, report), notes) = run(py, None, progress, |notes| {
             let machine = self.machine.clone();
             let sets = sets.as_deref().map(|file| Sets::find(file, &machine.spec)).transpose()?;
             let choice = Choice::new(sets, count, criterion, candidates);
-            let study = Study::find(study.as_deref(), &machine)?;
+            let study = job::study(study.as_deref(), study_text.as_deref(), &machine)?;
             let job = Plan { machine, map, choice, study, model_error: model_error.unwrap_or(0.0), seed };
             let report = job.run(notes)?;
             Ok((job, report))

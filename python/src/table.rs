@@ -9,7 +9,7 @@ use arrow_array::{
 };
 use arrow_array::{ffi_stream::FFI_ArrowArrayStream, types::Float64Type};
 use arrow_schema::{Field, Schema, ffi::FFI_ArrowSchema};
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyTuple};
 use serde_json::{Map, Value};
@@ -82,6 +82,16 @@ impl Table {
             columns.set_item(field.name(), cells(py, array)?)?;
         }
         Ok(columns)
+    }
+
+    /// Returns a column: an array of numbers, with NaN for missing values, or a list.
+    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let array = self.batch.column_by_name(name).ok_or_else(|| PyKeyError::new_err(name.to_owned()))?;
+        let found = cells(py, array)?;
+        match array.data_type().is_numeric() {
+            true => py.import("numpy")?.call_method1("array", (found, "float64")),
+            false => Ok(found),
+        }
     }
 
     fn __len__(&self) -> usize {

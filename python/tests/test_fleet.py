@@ -59,3 +59,80 @@ def test_bootstrap(fleet):
     assert again[0] == again[1] != again[2] and again[0] != ur5.identify(files["first"], "ur5").to_json()
     with pytest.raises(ValueError, match="from 2 on"):
         abbe.fleet.bootstrap(ur5, files["first"], "ur5", repetitions=1)
+
+
+def without_errors(table):
+    return {name: [value for value, error in zip(column, table["error"], strict=True) if error is None] for name, column in table.items() if name != "error"}
+
+
+def test_a_bad_machine_is_a_row_with_its_message(fleet, tmp_path):
+    _, files = fleet
+    good = abbe.fleet.identify(ur5, files, "ur5")
+    damaged = tmp_path / "damaged.csv"
+    text = files["first"].read_text(encoding="utf-8")
+    heading = next(line for line in text.splitlines() if not line.startswith("#"))
+    column = heading.split(",")[2]
+    damaged.write_text(text.replace(heading, heading.replace(column, "other")), encoding="utf-8")
+    seen = []
+    fleet_of = {"first": files["first"], "damaged": damaged, "second": files["second"], "missing": tmp_path / "no.csv", "third": files["third"]}
+    table = abbe.fleet.identify(ur5, fleet_of, "ur5", progress=lambda *done: seen.append(done))
+    assert table["machine"] == list(fleet_of) and seen[-1] == (5, 5)
+    assert without_errors(table) == good
+    assert f"`{column}`" in table["error"][1] and "no.csv" in table["error"][3]
+    with pytest.raises(abbe.SpecError, match="there is no column"):
+        abbe.fleet.identify(ur5, fleet_of, "ur5", on_error="raise")
+
+
+def test_a_table_of_all_machines_gives_the_same(fleet):
+    _, files = fleet
+    pandas = pytest.importorskip("pandas")
+    frames = [pandas.read_csv(file, comment="#").assign(machine=name) for name, file in files.items()]
+    table = pandas.concat(frames).sample(frac=1, random_state=1).sort_values(["machine"], kind="stable")
+    table = table.sort_index(kind="stable")
+    expected = abbe.fleet.identify(ur5, files, "ur5")
+    for workers in (1, 3):
+        found = abbe.fleet.identify(ur5, table, "ur5", by="machine", workers=workers)
+        assert sorted(found["machine"]) == sorted(expected["machine"])
+        for name in expected["machine"]:
+            here, there = found["machine"].index(name), expected["machine"].index(name)
+            assert all(found[column][here] == expected[column][there] for column in expected), name
+    with pytest.raises(ValueError, match="no column `serial`"):
+        abbe.fleet.identify(ur5, table, "ur5", by="serial")
+    with pytest.raises(TypeError, match="as `by`"):
+        abbe.fleet.identify(ur5, files["first"], "ur5")
+
+
+def test_what_is_done_is_not_done_again(tmp_path):
+    calls = []
+
+    def job(item):
+        calls.append(item)
+        if item == "bad":
+            raise RuntimeError("no reading")
+        return {"size": len(item)}
+
+    items = {"a": "one", "b": "three", "c": "bad"}
+    expected = {"machine": ["a", "b", "c"], "size": [3, 5, None], "error": [None, None, "no reading"]}
+    assert abbe.fleet.map(job, items, resume=tmp_path / "rows", workers=1) == expected
+    assert sorted(calls) == ["bad", "one", "three"]
+    # Killed while it wrote a line.
+    kept = tmp_path / "rows" / "rows.jsonl"
+    lines = kept.read_text(encoding="utf-8").splitlines(keepends=True)
+    cut = [line for line in lines if '"b"' in line][0]
+    kept.write_text("".join(line for line in lines if line != cut) + cut[:-9], encoding="utf-8")
+    calls.clear()
+    assert abbe.fleet.map(job, items, resume=tmp_path / "rows", workers=2) == expected
+    assert sorted(calls) == ["bad", "three"]
+    # Other data of a machine.
+    calls.clear()
+    found = abbe.fleet.map(job, items | {"a": "eleven", "c": "good"}, resume=tmp_path / "rows")
+    assert found == {"machine": ["a", "b", "c"], "size": [6, 5, 4]} and sorted(calls) == ["eleven", "good"]
+    with pytest.raises(ValueError, match="engine='spark'"):
+        abbe.fleet.map(job, items, engine="spark")
+
+
+@pytest.mark.parametrize("engine", ["ray", "dask"])
+def test_engines_give_the_same(engine, fleet):
+    pytest.importorskip(engine if engine == "ray" else "distributed")
+    _, files = fleet
+    assert abbe.fleet.identify(ur5, files, "ur5", engine=engine, workers=2) == abbe.fleet.identify(ur5, files, "ur5")

@@ -193,7 +193,7 @@ fn job(arguments: &Analyze, console: &mut Console) -> Result<analyze::Analyze> {
     let mut job = analyze::Analyze::new(machine, study);
     job.change(&changes, console);
     if let Some(q) = &arguments.q {
-        job.restrict(read_joint_variables(q, &job.machine().spec)?, console);
+        job.restrict(vec![read_joint_variables(q, &job.machine().spec)?], console);
     }
     job.monte_carlo = arguments.monte_carlo;
     job.seed = arguments.seed;

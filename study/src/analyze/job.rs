@@ -49,11 +49,14 @@ impl Analyze {
         self.study.change(&mut self.machine, changes);
     }
 
-    /// Analyzes one configuration of the joints instead of the study's workspace, with nominal
+    /// Analyzes configurations of the joints instead of the study's workspace, with nominal
     /// parameters and inputs. Published figures belong to the workspace and are dropped.
-    pub fn restrict(&mut self, q: Vec<f64>, notes: &mut dyn Notes) {
-        self.q = Some(number::exact_variables(&q, &self.machine.spec));
-        if self.study.restrict(q) {
+    pub fn restrict(&mut self, rows: Vec<Vec<f64>>, notes: &mut dyn Notes) {
+        self.q = match &rows[..] {
+            [q] => Some(number::exact_variables(q, &self.machine.spec)),
+            _ => None,
+        };
+        if self.study.restrict(rows) {
             notes.note(&format!("published figures are not compared: {Q} defines another workspace"));
         }
     }

@@ -78,11 +78,14 @@ impl Study {
         [self.tolerance, self.orientation_tolerance]
     }
 
-    /// Replaces the workspace by one configuration of the joints, with nominal parameters and
-    /// inputs. Published results, which belong to the workspace, are removed. Returns true if there
+    /// Replaces the workspace by configurations of the joints, with nominal parameters and inputs.
+    /// Published results, which belong to the workspace, are removed. Returns true if there
     /// were any.
-    pub fn restrict(&mut self, q: Vec<f64>) -> bool {
-        self.region = Region::one(q);
+    pub fn restrict(&mut self, mut rows: Vec<Vec<f64>>) -> bool {
+        self.region = match rows.pop() {
+            Some(q) if rows.is_empty() => Region::one(q),
+            last => Region::listed(rows.into_iter().chain(last).collect()),
+        };
         self.figures = Figure::defaults(&self.region);
         self.remove_published()
     }

@@ -14,6 +14,7 @@ use abbe::{Manipulator, analysis::Configuration};
 use abbe_spec::bounded::{UnreadableFile, not_text};
 use abbe_spec::csv_writer::meant;
 use abbe_spec::expr::{LARGEST, Symbol};
+use abbe_spec::option::Q;
 use abbe_spec::value::{find_name, parse_value};
 use abbe_spec::{Diagnostic, Document, Input, Section, Spec};
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -48,6 +49,13 @@ struct Column {
 type Table = (Vec<Column>, Vec<Vec<f64>>);
 
 impl Path {
+    /// Returns configurations of the joints, each with the values of all variables.
+    pub(super) fn of_joints(configurations: Vec<Vec<f64>>) -> Self {
+        let count = configurations.first().map_or(0, Vec::len);
+        let columns = (0..count).map(|i| Column { symbol: Symbol::Variable(i), unit: 1.0 }).collect();
+        Self { file: Q.to_string(), columns, configurations }
+    }
+
     /// Returns the parameters that have a column.
     pub fn parameters(&self) -> impl Iterator<Item = usize> {
         self.numbers(|symbol| if let Symbol::Parameter(i) = symbol { Some(i) } else { None })

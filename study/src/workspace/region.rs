@@ -67,6 +67,11 @@ impl Region {
         Self::new(Form::One(q))
     }
 
+    /// Returns configurations of the joints, with nominal parameters and inputs.
+    pub fn listed(rows: Vec<Vec<f64>>) -> Self {
+        Self::new(Form::Path(Path::of_joints(rows)))
+    }
+
     /// Returns a form with nominal inputs.
     pub(super) fn new(form: Form) -> Self {
         Self { form, inputs: Vec::new(), sampled_inputs: Vec::new() }

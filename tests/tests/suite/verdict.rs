@@ -445,7 +445,7 @@ fn arm(play: &str, q: Option<Vec<f64>>) -> Report {
     let study = Study::read(Document::new("study.toml", study), &spec).unwrap();
     let mut job = Analyze::new(Machine::of_spec(spec, "arm.toml"), study);
     if let Some(q) = q {
-        job.restrict(q, &mut ());
+        job.restrict(vec![q], &mut ());
     }
     job.run(&mut ()).unwrap()
 }

@@ -7,6 +7,7 @@
 
 mod crates;
 mod jobs;
+mod objects;
 mod page;
 mod python;
 mod reports;
@@ -66,6 +67,11 @@ fn names_of_options_are_those_of_the_jobs() {
         ("Terms", python::literal(TERMS.0.iter().map(|(_, name, _)| *name))),
     ];
     expect_file!["../../../../python/abbe/options.py"].assert_eq(&python::options(&names));
+}
+
+#[test]
+fn objects_are_those_of_the_keys() {
+    expect_file!["../../../../python/abbe/spec.py"].assert_eq(&objects::module());
 }
 
 #[test]

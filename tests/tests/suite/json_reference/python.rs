@@ -106,7 +106,7 @@ pub(super) fn literal<'n>(names: impl Iterator<Item = &'n str>) -> String {
 }
 
 /// Adds a docstring in lines of at most 100 columns.
-fn docstring(text: &mut String, documentation: &str) {
+pub(super) fn docstring(text: &mut String, documentation: &str) {
     let quoted = documentation.replace('\\', "\\\\").replace("`None`", "None");
     let mut lines = Vec::new();
     for paragraph in quoted.lines() {
