@@ -278,10 +278,11 @@ class Machine:
         Rows, columns and units as for `pose`. `inputs`: as for `generalized_errors`.
         """
     def inverse(self, target: ArrayLike, q0: _Joints | None = None) -> _Array:
-        """(nq,): joints, within their limits, at which the ideal tool reaches `target` in F_0.
+        """(…, nq): joints, within their limits, at which the ideal tool reaches `target` in F_0.
 
-        `target`: a pose (4, 4) or a tool point (3,), in the length unit. `q0`: start of the
-        iteration, home by default. Raises ValueError, with the reason, if no solution is found.
+        `target`: poses (…, 4, 4) or tool points (…, 3), in the length unit. `q0`: start of each
+        search, home by default. Of one target, raises ValueError, with the reason, if no solution is
+        found; of several, its row is NaN, and a warning has their number.
 
         >>> import abbe
         >>> ur5 = abbe.load("ur5")
@@ -290,20 +291,33 @@ class Machine:
         True
         """
     def inverses(self, target: ArrayLike, q0: _Joints | None = None) -> _Array:
-        """(m, nq): all joints, within their limits, at which the ideal tool has the pose `target` in
-        F_0, those nearest to `q0` first.
+        """(…, m, nq): all joints, within their limits, at which the ideal tool has the pose `target` in
+        F_0, those nearest to `q0` first; of several targets, rows beyond the solutions of one are
+        NaN.
 
-        `target`, `q0`: as for `inverse`, but `target` is a pose. Revolute joints have the full turn
+        `target`, `q0`: as for `inverse`, but of poses. Revolute joints have the full turn
         nearest to `q0`, and joints that are free to move there stay as in `q0`. Arms with a
         spherical wrist, of whose other axes two neighbours intersect or are parallel, arms with
         three parallel axes, gantries with three revolute joints, and platforms on legs are solved
-        in closed form; of others, solutions may be missing. Raises ValueError, with the reason, if
-        there is none.
+        in closed form; of others, solutions may be missing. Without any, as `inverse`.
 
         >>> import abbe
         >>> ur5 = abbe.load("ur5")
         >>> ur5.inverses(ur5.pose([0.1, -1, 1, 0.2, 0.3, 0])).shape
         (8, 6)
+        """
+    def tool_covariance(self, q: _Joints, **inputs: _Input) -> _Array:
+        """(…, 3, 3): covariance of the tool point in F_0 of an identified machine: by the covariance of
+        what was identified, and by the random sources of the spec. Squares of the length unit.
+
+        `inputs`: as for `generalized_errors`. A machine whose spec has no covariance raises
+        ValueError.
+
+        >>> import abbe
+        >>> ur5 = abbe.load("ur5")
+        >>> found = ur5.identify(ur5.simulate("ur5", samples=60, seed=1).table("rows"), "ur5").load()
+        >>> found.tool_covariance([found.home, found.home]).shape
+        (2, 3, 3)
         """
     def compensate(
         self,

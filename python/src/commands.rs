@@ -4,11 +4,13 @@ use abbe::analysis::sampling::vectors::{cross, dot};
 use abbe::analysis::{InverseKinematics, Target, inverse};
 use abbe::{Function, Pose};
 use abbe_metrology::compensate;
+use abbe_study::calibration::{CalibrationErrors, Prediction};
 use abbe_study::mistake;
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
+use rayon::prelude::*;
 
 use crate::arrays::{empty, numbers, output_array, tuple};
 use crate::functions::vec_of;
@@ -42,19 +44,47 @@ pub(crate) fn restore(q: Py<PyAny>, left: Py<PyAny>, reason: Py<PyAny>) -> Comma
     Commands { q, left, reason }
 }
 
-/// Returns the target that an array describes: a pose or a tool point.
-fn target_of(target: &Bound<'_, PyAny>) -> PyResult<Target> {
+/// Returns the solutions of each target; of several, none where there are none, with a warning.
+fn solved<E: std::fmt::Display + Send>(
+    py: Python<'_>,
+    lead: &[usize],
+    targets: &[Target],
+    solve: impl Fn(&Target) -> std::result::Result<Vec<Vec<f64>>, E> + Sync,
+) -> PyResult<Vec<Vec<Vec<f64>>>> {
+    if let ([], [target]) = (lead, targets) {
+        let found = guarded(|| Ok(py.detach(|| solve(target).map_err(|reason| reason.to_string()))))?;
+        return found.map(|found| vec![found]).map_err(PyValueError::new_err);
+    }
+    let work = |notes: &mut dyn abbe_study::Notes| {
+        let found: Vec<_> = targets.par_iter().map(|target| solve(target).unwrap_or_default()).collect();
+        let none = found.iter().filter(|rows| rows.is_empty()).count();
+        if none > 0 {
+            notes.warn(&format!("{none} of {} targets are not reached: their rows are NaN", found.len()));
+        }
+        Ok(found)
+    };
+    run(py, None, None, work).map(|(found, _)| found)
+}
+
+/// Returns the leading dimensions and the targets that an array describes: poses or tool points.
+fn targets_of(target: &Bound<'_, PyAny>) -> PyResult<(Vec<usize>, Vec<Target>)> {
     let array = numbers(target, "target", None)?;
     let values = array.as_slice()?;
     if !values.iter().all(|value| value.is_finite()) {
         return Err(PyValueError::new_err("`target` has a number that is not finite"));
     }
     match *array.shape() {
-        [4, 4] => Ok(Target::Pose(pose(values)?)),
-        [3] => Ok(Target::Point([values[0], values[1], values[2]])),
+        [ref lead @ .., 4, 4] => {
+            let poses = values.chunks_exact(16).map(|one| pose(one).map(Target::Pose));
+            Ok((lead.to_vec(), poses.collect::<PyResult<_>>()?))
+        }
+        [ref lead @ .., 3] => {
+            let point = |one: &[f64]| Target::Point([one[0], one[1], one[2]]);
+            Ok((lead.to_vec(), values.chunks_exact(3).map(point).collect()))
+        }
         ref shape => {
             let message =
-                format!("`target` has shape {}: give a pose (4, 4) or a tool point (3,)", tuple(shape));
+                format!("`target` has shape {}: give poses (…, 4, 4) or tool points (…, 3)", tuple(shape));
             Err(PyValueError::new_err(message))
         }
     }
@@ -74,10 +104,11 @@ impl Machine {
 
 #[pymethods]
 impl Machine {
-    /// (nq,): joints, within their limits, at which the ideal tool reaches `target` in F_0.
+    /// (…, nq): joints, within their limits, at which the ideal tool reaches `target` in F_0.
     ///
-    /// `target`: a pose (4, 4) or a tool point (3,), in the length unit. `q0`: start of the
-    /// iteration, home by default. Raises ValueError, with the reason, if no solution is found.
+    /// `target`: poses (…, 4, 4) or tool points (…, 3), in the length unit. `q0`: start of each
+    /// search, home by default. Of one target, raises ValueError, with the reason, if no solution is
+    /// found; of several, its row is NaN, and a warning has their number.
     ///
     /// >>> import abbe
     /// >>> ur5 = abbe.load("ur5")
@@ -91,23 +122,25 @@ impl Machine {
         target: &Bound<'py, PyAny>,
         q0: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (target, start) = (target_of(target)?, self.start(py, q0)?);
+        let ((lead, targets), start) = (targets_of(target)?, self.start(py, q0)?);
         let all: Vec<usize> = (0..start.len()).collect();
-        let find = || inverse(&self.interpreter, &self.parameters, &start, &all, &target);
-        let found =
-            guarded(|| Ok(py.detach(find)))?.map_err(|reason| PyValueError::new_err(reason.to_string()))?;
-        filled(py, &[found.len()], &found)
+        let find = |target: &Target| inverse(&self.interpreter, &self.parameters, &start, &all, target);
+        let found = solved(py, &lead, &targets, |target| find(target).map(|q| vec![q]))?;
+        let nan = || vec![f64::NAN; start.len()];
+        let rows: Vec<f64> =
+            found.into_iter().flat_map(|rows| rows.into_iter().next().unwrap_or_else(nan)).collect();
+        filled(py, &[&lead[..], &[start.len()]].concat(), &rows)
     }
 
-    /// (m, nq): all joints, within their limits, at which the ideal tool has the pose `target` in
-    /// F_0, those nearest to `q0` first.
+    /// (…, m, nq): all joints, within their limits, at which the ideal tool has the pose `target` in
+    /// F_0, those nearest to `q0` first; of several targets, rows beyond the solutions of one are
+    /// NaN.
     ///
-    /// `target`, `q0`: as for `inverse`, but `target` is a pose. Revolute joints have the full turn
+    /// `target`, `q0`: as for `inverse`, but of poses. Revolute joints have the full turn
     /// nearest to `q0`, and joints that are free to move there stay as in `q0`. Arms with a
     /// spherical wrist, of whose other axes two neighbours intersect or are parallel, arms with
     /// three parallel axes, gantries with three revolute joints, and platforms on legs are solved
-    /// in closed form; of others, solutions may be missing. Raises ValueError, with the reason, if
-    /// there is none.
+    /// in closed form; of others, solutions may be missing. Without any, as `inverse`.
     ///
     /// >>> import abbe
     /// >>> ur5 = abbe.load("ur5")
@@ -120,14 +153,67 @@ impl Machine {
         target: &Bound<'py, PyAny>,
         q0: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let Target::Pose(pose) = target_of(target)? else {
-            return Err(PyValueError::new_err("`target` has shape (3,): give a pose (4, 4)"));
+        let ((lead, targets), start) = (targets_of(target)?, self.start(py, q0)?);
+        let refused = |reason: &dyn ToString| PyValueError::new_err(reason.to_string());
+        if targets.iter().any(|target| matches!(target, Target::Point(_))) {
+            return Err(refused(&"`target` has tool points: give poses (…, 4, 4)"));
+        }
+        let kinematics = InverseKinematics::new(&self.interpreter, &self.parameters);
+        let kinematics = kinematics.map_err(|reason| refused(&reason))?;
+        let found = solved(py, &lead, &targets, |target| match target {
+            Target::Pose(pose) => kinematics.solve(&start, pose),
+            _ => Ok(Vec::new()),
+        })?;
+        let (most, nq) = (found.iter().map(Vec::len).max().unwrap_or(0), start.len());
+        let row = |rows: Vec<Vec<f64>>| {
+            let mut row = rows.concat();
+            row.resize(most * nq, f64::NAN);
+            row
         };
-        let start = self.start(py, q0)?;
-        let find = || InverseKinematics::new(&self.interpreter, &self.parameters)?.solve(&start, &pose);
-        let found =
-            guarded(|| Ok(py.detach(find)))?.map_err(|reason| PyValueError::new_err(reason.to_string()))?;
-        filled(py, &[found.len(), start.len()], &found.concat())
+        let rows: Vec<f64> = found.into_iter().flat_map(row).collect();
+        filled(py, &[&lead[..], &[most, nq]].concat(), &rows)
+    }
+
+    /// (…, 3, 3): covariance of the tool point in F_0 of an identified machine: by the covariance of
+    /// what was identified, and by the random sources of the spec. Squares of the length unit.
+    ///
+    /// `inputs`: as for `generalized_errors`. A machine whose spec has no covariance raises
+    /// ValueError.
+    ///
+    /// >>> import abbe
+    /// >>> ur5 = abbe.load("ur5")
+    /// >>> found = ur5.identify(ur5.simulate("ur5", samples=60, seed=1).table("rows"), "ur5").load()
+    /// >>> found.tool_covariance([found.home, found.home]).shape
+    /// (2, 3, 3)
+    #[pyo3(signature = (q, **inputs))]
+    fn tool_covariance<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        inputs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (spec, nq) = (&self.machine.spec, self.home().len());
+        let description = abbe::Manipulator::description(&self.interpreter);
+        let signature = Function::RealPose.signature();
+        let given = numbers(q, "q", Some(self.variable_names.bind(py)))?;
+        let given = vec_of(given, "q", &signature.arguments[0], description)?;
+        let inputs = self.given_inputs(q, inputs, &given.lead)?;
+        let lead = given.lead.clone();
+        let (given, inputs) = (given.argument()?, inputs.argument()?);
+        let errors = CalibrationErrors::new(spec);
+        let prediction = Prediction::new(spec, &self.interpreter, &errors, [0.0; 3]);
+        let prediction = prediction.ok_or_else(|| {
+            PyValueError::new_err("the spec of this machine has no [covariance]: `identify` writes it")
+        })?;
+        let nu = description.inputs.len();
+        let mut rows = Vec::with_capacity(9 * given.values.len() / nq.max(1));
+        for (i, q) in given.values.chunks_exact(nq.max(1)).enumerate() {
+            let u = if inputs.each { &inputs.values[i * nu..][..nu] } else { inputs.values };
+            let covariance = prediction.covariance(q.to_vec(), u.to_vec());
+            let covariance = covariance.map_err(|reason| PyValueError::new_err(reason.to_string()))?;
+            rows.extend(covariance.into_iter().flatten());
+        }
+        filled(py, &[&lead[..], &[3, 3]].concat(), &rows)
     }
 
     /// Computes joint commands at which the real tool has the ideal pose of `q`. Returns Commands.

@@ -74,22 +74,19 @@ def test_fleet(folder):
     assert [line.split("  ")[0] for line in lines] == ["a.csv", "b.csv"] and " e_x2 = -0.4" in lines[1]
 
 
-@needs("ray")
 @needs("pandas")
 @needs("pyarrow")
-def test_fleet_in_parquet(folder):
+@pytest.mark.parametrize("engine", ["local", pytest.param("ray", marks=needs("ray")), pytest.param("dask", marks=needs("distributed"))])
+def test_fleet_in_parquet(folder, engine):
     import pandas
 
     fleet = folder / "fleet"
     measured(fleet)
     rows = [pandas.read_csv(fleet / f"{name}.csv").assign(machine=name) for name in "ab"]
     pandas.concat(rows).to_parquet(folder / "fleet.parquet")
-    printed(folder, sys.executable, "fleet_parquet.py", "fleet.parquet", "table.csv", RAY_USAGE_STATS_ENABLED="0")
-    found = pandas.read_csv(folder / "table.csv")
-    expected = abbe.fleet.identify(abbe.load("ur5"), {name: fleet / f"{name}.csv" for name in "ab"}, "ur5")
-    assert list(found["machine"]) == ["a", "b"]
-    # Round trip through CSV.
-    assert found["e_x2"].tolist() == pytest.approx(expected["e_x2"], rel=1e-12)
+    printed(folder, sys.executable, "fleet_parquet.py", "fleet.parquet", "table.parquet", engine, RAY_USAGE_STATS_ENABLED="0")
+    found = pandas.read_parquet(folder / "table.parquet").to_dict("list")
+    assert found == abbe.fleet.identify(abbe.load("ur5"), {name: fleet / f"{name}.csv" for name in "ab"}, "ur5")
 
 
 # The first worker of each part ends its process, as if its computer were switched off.

@@ -76,12 +76,18 @@ impl<'a> Prediction<'a> {
     /// Returns the standard deviation of the point (√trace of its covariance) at each configuration
     /// that can be evaluated.
     pub fn deviations(&self, configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>) -> Vec<f64> {
-        configurations.filter_map(|(q, u)| self.deviation(q, u).ok()).collect()
+        let deviation = |covariance: [[f64; 3]; 3]| (0..3).map(|i| covariance[i][i]).sum::<f64>().sqrt();
+        configurations.filter_map(|(q, u)| self.covariance(q, u).ok().map(deviation)).collect()
     }
 
-    /// Returns `√(Σ_l |M l|² + Σ_k v_k |m_k|²)` for the parts l of the covariance and random
-    /// sources of variances v, with the Jacobians M and m of the point.
-    fn deviation(&self, q: Vec<f64>, u: Vec<f64>) -> Result<f64, Failure> {
+    /// Returns the covariance `Σ_l (M l)(M l)ᵀ + Σ_k v_k m_k m_kᵀ` of the point in `F_0`, in squares
+    /// of the length unit, for the parts l of the covariance and random sources of variances v, with
+    /// the Jacobians M and m of the point.
+    ///
+    /// # Errors
+    ///
+    /// Errors as for [`Manipulator::real_pose`].
+    pub fn covariance(&self, q: Vec<f64>, u: Vec<f64>) -> Result<[[f64; 3]; 3], Failure> {
         let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
         let zero = vec![0.0; self.model.unknowns.len()];
         let (_, of_unknowns) = self.model.at(&zero).tool(&row)?;
@@ -96,10 +102,15 @@ impl<'a> Prediction<'a> {
             let terms = moves.iter().zip(part);
             terms.fold([0.0; 3], |sum, (moved, size)| std::array::from_fn(|i| sum[i] + size * moved[i]))
         };
-        let square = |moved: [f64; 3]| moved.iter().map(|v| v * v).sum::<f64>();
-        let of_parts: f64 = self.errors.parts.iter().map(|part| square(displacement(part))).sum();
-        let of_random = of_random.iter().zip(&self.random).map(|(moved, variance)| variance * square(*moved));
-        Ok((of_parts + of_random.sum::<f64>()).sqrt())
+        let of_parts = self.errors.parts.iter().map(|part| (displacement(part), 1.0));
+        let of_random = of_random.iter().copied().zip(self.random.iter().copied());
+        let mut covariance = [[0.0; 3]; 3];
+        for (moved, variance) in of_parts.chain(of_random) {
+            for (row, one) in covariance.iter_mut().zip(moved) {
+                row.iter_mut().zip(moved).for_each(|(sum, other)| *sum += variance * one * other);
+            }
+        }
+        Ok(covariance)
     }
 
     /// Returns the derivative of the point with respect to a joint, by central differences.
