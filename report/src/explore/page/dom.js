@@ -51,6 +51,21 @@ export function onResize(drawing, resized) {
     }).observe(drawing);
 }
 
+/** Distance in pixels at which a point is picked. */
+const PICKED = 10;
+
+/** Calls a function with the index of the nearest place at a click that is not the end of a drag. @param {HTMLElement} stage @param {() => number[][]} places in its pixels @param {(index: number) => void} picked */
+export function onPick(stage, places, picked) {
+    let [x, y] = [0, 0];
+    stage.addEventListener("pointerdown", ({ clientX, clientY }) => { [x, y] = [clientX, clientY]; });
+    stage.addEventListener("click", ({ clientX, clientY }) => {
+        const { left, top } = stage.getBoundingClientRect();
+        const away = places().map((place) => Math.hypot(place[0] + left - clientX, place[1] + top - clientY));
+        const index = away.reduce((best, distance, i) => (distance < (away[best] ?? PICKED) ? i : best), -1);
+        if (index >= 0 && Math.hypot(clientX - x, clientY - y) <= 3) picked(index);
+    });
+}
+
 /** Returns the SVG path through points, with gaps where a number is not finite. @param {number[][]} points */
 export const path = (points) => points.map(([x, y], i) => (Number.isFinite(x + y)
     ? `${i && Number.isFinite(points[i - 1][0] + points[i - 1][1]) ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}` : "")).join("");

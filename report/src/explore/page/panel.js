@@ -12,6 +12,7 @@ import { copyState, decodeState, encodeState, initialState } from "./state.js";
 import { createJacobian, createPoses } from "./tables.js";
 import { createVerdict } from "./verdict.js";
 import { createView } from "./view.js";
+import { createWorkspace } from "./workspace.js";
 /** @import { Report, State } from "./state.js" @import { Evaluation, Generated, Machine } from "./machine.js" */
 /** @import { Largest, Measurand } from "./search.js" */
 
@@ -66,7 +67,9 @@ export function mount(section, generated, report, index) {
     const ignored = [];
     const [machine, initial, state] = [createMachine(generated, report), initialState(report), decodeState(report, location.hash, prefix, ignored)];
     const { tolerance: position, orientation_tolerance: orientation } = report.study;
-    let [frame, timer, reference, previous, evaluated] = [0, 0, initial, initial, ""];
+    let [frame, timer, reference, evaluated, seen] = [0, 0, initial, "", copyState(state)];
+    /** States before the last changes, the oldest first. @type {State[]} */
+    const past = [];
     /** @type {Panel} */
     const panel = { report, generated, machine, index, state, figures: machine.evaluate(state), reference: null, cloud: null,
         measurand: "position", unit: { symbol: "", factor: 1 }, tolerances: { position, orientation }, joint: 0,
@@ -80,14 +83,36 @@ export function mount(section, generated, report, index) {
             panel.refresh();
         },
         go(next, base = reference) {
-            [previous, back.hidden, reference] = [copyState(state), false, { ...base, factors: initial.factors }];
+            remember();
+            reference = { ...base, factors: initial.factors };
             panel.change(() => Object.assign(state, copyState(next)));
         },
         load(configuration) {
             panel.go(stateAt(report, state, configuration), stateAt(report, reference, configuration));
         } };
-    const back = button("Back", () => panel.go(previous), { hidden: true });
+    const back = button("Back", undo, { hidden: true, title: "Undo the last change (Ctrl+Z)" });
     const reset = button("Reset", () => panel.go(initial, initial));
+    /** Keeps the state before a change. */
+    function remember() {
+        if (JSON.stringify(seen) !== JSON.stringify(state)) past.push(seen);
+        [seen, back.hidden] = [copyState(state), past.length === 0];
+    }
+    /** Takes the last change back. */
+    function undo() {
+        remember();
+        const before = past.pop();
+        if (!before) return;
+        seen = copyState(before);
+        panel.change(() => Object.assign(state, before));
+    }
+    section.addEventListener("keydown", (event) => {
+        const { key, ctrlKey, metaKey, shiftKey, target } = /** @type {KeyboardEvent} */ (event);
+        // A field of text undoes what was typed in it.
+        const isText = target instanceof HTMLInputElement && target.type === "text";
+        if (key !== "z" || !(ctrlKey || metaKey) || shiftKey || isText) return;
+        event.preventDefault();
+        undo();
+    });
     const limits = () => String([panel.tolerances.position ?? "", panel.tolerances.orientation ?? ""]);
     const studied = limits();
     const refused = html("p", { class: "detail", role: "status" });
@@ -108,7 +133,8 @@ export function mount(section, generated, report, index) {
     addresses.push(() => [encodeState(report, state, prefix), limits() === studied ? "" : `${prefix}tolerances=${limits()}`, shown()]
         .filter(Boolean).join("&"));
     const measured = report.residuals ? [createResiduals(panel, report.residuals)] : [];
-    const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel), createView(panel, measured), createSources(panel)];
+    const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel),
+        createView(panel, report.residuals ? measured : [createWorkspace(panel)]), createSources(panel)];
     const [poses, jacobian, same] = [createPoses(panel), createJacobian(panel), createSame(panel)];
     const sweep = report.variables.length > 0 ? [createSweep(panel)] : [];
     /** @type {{element: Element, update: () => void, settle?: () => void}[]} */
@@ -137,6 +163,7 @@ export function mount(section, generated, report, index) {
         parts.filter(({ element }) => all || visible.has(element)).forEach((part) => part.update());
     }
     function settle() {
+        remember();
         const changes = String([state.factors, state.s, state.u]);
         if (changes !== evaluated) panel.cloud = cloud(machine, report, state);
         evaluated = changes;

@@ -1,11 +1,11 @@
 // Rows of data: their errors as vectors in the picture, before or after, and a row to load.
 
-import { html, path, paths, roundStep } from "./dom.js";
+import { html, onPick, path, paths, roundStep } from "./dom.js";
 import { decimals, fixed } from "./number.js";
 /** @import { Residuals } from "./state.js" @import { Panel } from "./panel.js" */
 
-/** Part of the points' diagonal that the 95 % quantile of the vectors takes; distance in pixels at which a point is picked. */
-const [LONG, PICKED] = [0.1, 10];
+/** Part of the points' diagonal that the 95 % quantile of the vectors takes. */
+const LONG = 0.1;
 
 /** Returns the length of an error; 0 without one. @param {number[] | null} error */
 export const lengthOf = (error) => Math.hypot(...(error ?? []));
@@ -48,18 +48,9 @@ export function createResiduals({ report, refresh, load }, residuals) {
         const vectors = rows.map(({ point, [kind]: error }, i) => path([places[i], project(point.map((value, axis) => value + scale * (error?.[axis] ?? 0)))]));
         [vectors.join(""), dots.join(""), dots[list.selectedIndex - 1] ?? ""].forEach((d, i) => marks[i].setAttribute("d", d));
     }
-    /** Loads the nearest row at a click that is not the end of a drag. @param {HTMLElement} stage */
-    function listen(stage) {
-        let [x, y] = [0, 0];
-        stage.addEventListener("pointerdown", ({ clientX, clientY }) => { [x, y] = [clientX, clientY]; });
-        stage.addEventListener("click", ({ clientX, clientY }) => {
-            const { left, top } = stage.getBoundingClientRect();
-            const away = places.map((place) => Math.hypot(place[0] + left - clientX, place[1] + top - clientY));
-            const row = away.indexOf(Math.min(...away, PICKED));
-            if (row < 0 || Math.hypot(clientX - x, clientY - y) > 3) return;
-            list.selectedIndex = row + 1;
-            load(row);
-        });
-    }
-    return { element, marks, draw, listen };
+    const pick = (/** @type {number} */ row) => {
+        list.selectedIndex = row + 1;
+        load(row);
+    };
+    return { element, keys: [], marks, draw, listen: (/** @type {HTMLElement} */ stage) => onPick(stage, () => places, pick) };
 }

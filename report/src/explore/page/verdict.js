@@ -106,8 +106,10 @@ export function createVerdict(panel) {
         const study = cloud?.[measurand];
         if (!study) return;
         const scaled = limit === null || !(study.radius > 0) ? "" : ` Tolerance met with all sources ${times(factorAt(study.radius, limit))}.`;
+        const count = study.radii.filter((one) => limit !== null && one <= limit).length;
+        const within = limit === null || !isJudged ? "" : ` ${count} of ${study.radii.length} within.`;
         if (rows.length > 0 && measurand === "position") return setText(studyText, `${rowText()}. Predicted: at most ${errorText(panel, study.radius)}.`);
-        setText(studyText, `${errorText(panel, study.radius)}${shareText(study.radius)} at configuration ${study.worst + 1} of ${study.radii.length}.${scaled}`);
+        setText(studyText, `${errorText(panel, study.radius)}${shareText(study.radius)} at configuration ${study.worst + 1} of ${study.radii.length}.${within}${scaled}`);
     }
     const settle = () => setText(live, [status, total, share, largest].map(({ textContent }) => textContent).join(" "));
     return { element, searches, update, settle };

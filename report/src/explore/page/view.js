@@ -4,7 +4,9 @@ import { jointEnds } from "./controls.js";
 import { button, html, moveTo, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
 import { quantity } from "./number.js";
 import { replaced } from "./search.js";
-/** @import { Panel } from "./panel.js" @import { createResiduals } from "./residuals.js" */
+/** @import { Panel } from "./panel.js" */
+
+/** Points in the picture, with their key. @typedef {{keys: Element[], marks: SVGElement[], draw: (project: (point: number[]) => number[]) => void, listen: (stage: HTMLElement) => void}} Points */
 
 /** Number of configurations of the study that give the size of the picture, and of points on the path of a joint. */
 const [SAMPLES, PATH_POINTS] = [200, 48];
@@ -18,7 +20,7 @@ const KEYS = { ArrowLeft: [-6, 0, 1], ArrowRight: [6, 0, 1], ArrowUp: [0, 6, 1],
 /** @param {number[]} frame @returns {number[]} its origin */
 const originOf = (frame) => [frame[9], frame[10], frame[11]];
 
-/** Creates the picture: drag or arrow keys turn it; pinch, + and -, and with the focus the wheel zoom. @param {Panel} panel @param {ReturnType<typeof createResiduals>[]} measured */
+/** Creates the picture: drag or arrow keys turn it; pinch, + and -, and with the focus the wheel zoom. @param {Panel} panel @param {Points[]} measured */
 export function createView(panel, measured) {
     const { report, machine, generated } = panel;
     const { up, frames, variables } = report;
@@ -41,7 +43,7 @@ export function createView(panel, measured) {
     const stage = html("div", { class: "stage", tabindex: 0, role: "application",
         "aria-label": "Picture of the manipulator: arrow keys turn it, + and - zoom, 0 resets" }, drawing);
     const [ideal, real, limit] = ["ideal", "real", "tolerance"].map((name) => html("span", { class: `key ${name}` }, html("i"), html("span", {}, name)));
-    const element = html("figure", { class: "view" }, stage, html("figcaption", {}, ideal, real, limit,
+    const element = html("figure", { class: "view" }, stage, html("figcaption", {}, ideal, real, limit, ...measured.flatMap(({ keys }) => keys),
         `grid ${quantity(grid, report.length)}`, html("span", { class: "buttons" },
             button("−", () => turn(0, 0, 0.8), { "aria-label": "Zoom out" }),
             button("+", () => turn(0, 0, 1.25), { "aria-label": "Zoom in" }), button("Reset view", reset))));

@@ -1,7 +1,7 @@
 // Pages in a browser: whatever the user sets, the figures shown are those of the commands shown. Run by `node --test`.
 
 import assert from "node:assert/strict";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test, { after, before } from "node:test";
@@ -212,5 +212,59 @@ test("the worst case is found in a worker, and loaded", async () => {
     await assertAgrees(report);
     const after = await figures();
     assert.ok(parseFloat(after.total) > parseFloat(before.total), after.total);
+    assert.deepEqual(browser.errors(), []);
+});
+
+/** Types a tolerance of the panel. */
+async function limit(text) {
+    await browser.evaluate(`(() => {
+        const field = document.querySelector("input.tolerance");
+        field.focus();
+        field.select();
+    })()`);
+    await browser.type(text);
+    await browser.press("Enter");
+}
+
+test("configurations within the tolerance are counted as the command does", async () => {
+    await open("pps");
+    const { lines: [analyze] } = await figures();
+    const out = join(folder, "out");
+    shell(`${analyze.replace(/ --q \S+/, "")} --out ${out} --force`);
+    const [heading, ...rows] = readFileSync(join(out, "configurations.csv"), "utf8").trim().split("\n").map((line) => line.split(","));
+    // The convention of the study: the norms of both are added.
+    const norm = (row, part) => Math.hypot(...["x", "y", "z"].map((axis) => Number(row[heading.indexOf(`${part} ${axis} (mm)`)])));
+    await limit("3 mm");
+    await figures();
+    const [within, beyond] = [true, false].map((kind) => rows.filter((row) => norm(row, "repeatable") + norm(row, "random") <= 3 === kind).length);
+    assert.ok(within > 0 && beyond > 0, `${within} ${beyond}`);
+    const keys = await browser.evaluate(`[...document.querySelectorAll(".view .key:is(.within, .beyond)")].map(({ textContent }) => textContent)`);
+    assert.deepEqual(keys, [`${within} of ${rows.length} within`, `${beyond} of ${rows.length} beyond`]);
+    assert.deepEqual(browser.errors(), []);
+});
+
+test("a tool point of the study is loaded by a click, and changes are undone", async () => {
+    await open("ur5");
+    await limit("0.06 mm");
+    const before = await figures();
+    const [x, y] = await browser.evaluate(`(() => {
+        const { left, top } = document.querySelector(".view .stage").getBoundingClientRect();
+        const places = ["within", "beyond"].map((name) => [...document.querySelector(".view path." + name).getAttribute("d").matchAll(/M(\\S+) (\\S+?)h0/g)]
+            .map(([, x, y]) => [Number(x), Number(y)]));
+        // One that no other is near.
+        const [x, y] = places[0].find(([x, y]) => places[1].every((other) => Math.hypot(other[0] - x, other[1] - y) > 4));
+        return [left + x, top + y];
+    })()`);
+    await browser.click(x, y);
+    const loaded = await figures();
+    assert.notEqual(loaded.total, before.total);
+    assert.ok(parseFloat(loaded.total) <= 0.06, loaded.total);
+    const undo = () => browser.evaluate(`document.querySelector(".abbe-panel").dispatchEvent(new KeyboardEvent("keydown", { key: "z", ctrlKey: true, bubbles: true }))`);
+    await slide("q2", 0.2, 0);
+    await figures();
+    for (const { lines } of [loaded, before]) {
+        await undo();
+        assert.deepEqual((await figures()).lines.slice(0, 2), lines.slice(0, 2));
+    }
     assert.deepEqual(browser.errors(), []);
 });
