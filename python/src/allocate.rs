@@ -40,7 +40,7 @@ impl Machine {
         threads: Option<usize>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Report>> {
-        let (study, study_text) = GivenStudy::new(study, study_text);
+        let (study, study_text) = GivenStudy::or_text(study, study_text);
         let (report, notes) = run(py, threads, progress, |notes| {
             let machine = self.unchanged.clone();
             let mut study = job::study(study.as_deref(), study_text.as_deref(), &machine)?;

@@ -106,7 +106,7 @@ impl Machine {
         threads: Option<usize>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (study, study_text) = GivenStudy::new(study, study_text);
+        let (study, study_text) = GivenStudy::or_text(study, study_text);
         let q = q.map(|q| self.configurations(q)).transpose()?;
         let tolerances = Tolerances::texts(tolerance);
         let monte_carlo = Some(monte_carlo).filter(|draws| *draws > 0);

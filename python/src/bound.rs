@@ -58,7 +58,7 @@ impl Machine {
             Gap::new(gap).map_err(|message| PyValueError::new_err(format!("`gap`: {message}")))?.share();
         let boxes = within("boxes", boxes, BOXES.range)?;
         let time = seconds("time", time)?;
-        let (study, study_text) = GivenStudy::new(study, study_text);
+        let (study, study_text) = GivenStudy::or_text(study, study_text);
         let (report, notes) = run(py, threads, progress, |notes| {
             let machine = self.unchanged.clone();
             let mut study = job::study(study.as_deref(), study_text.as_deref(), &machine)?;

@@ -28,7 +28,7 @@ impl Machine {
         study_text: Option<&str>,
         height: u32,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (study, study_text) = GivenStudy::new(study, study_text);
+        let (study, study_text) = GivenStudy::or_text(study, study_text);
         let (report, _) = run(py, None, None, |notes| {
             let analysis = Cow::Owned(self.job(study.as_deref(), study_text.as_deref(), &[], notes)?);
             let study = study.as_ref().map(|study| study.to_string_lossy().into_owned());

@@ -184,7 +184,7 @@ impl<'py> FromPyObject<'_, 'py> for GivenStudy {
 
 impl GivenStudy {
     /// Returns the file and the text of the arguments `study` and `study_text`.
-    pub(crate) fn new(study: Option<Self>, text: Option<&str>) -> (Option<PathBuf>, Option<String>) {
+    pub(crate) fn or_text(study: Option<Self>, text: Option<&str>) -> (Option<PathBuf>, Option<String>) {
         let study = study.unwrap_or_default();
         (study.file, study.text.or_else(|| text.map(str::to_owned)))
     }

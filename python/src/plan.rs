@@ -44,7 +44,7 @@ impl Machine {
         let model_error =
             model_error.map(|value| length("model_error", value, &self.machine.spec)).transpose()?;
         let map = self.map(map)?;
-        let (study, study_text) = GivenStudy::new(study, None);
+        let (study, study_text) = GivenStudy::or_text(study, None);
         let ((job, report), notes) = run(py, None, progress, |notes| {
             let machine = self.machine.clone();
             let sets = sets.as_deref().map(|file| Sets::find(file, &machine.spec)).transpose()?;

@@ -80,9 +80,9 @@ impl<'a> Prediction<'a> {
         configurations.filter_map(|(q, u)| self.covariance(q, u).ok().map(deviation)).collect()
     }
 
-    /// Returns the covariance `Σ_l (M l)(M l)ᵀ + Σ_k v_k m_k m_kᵀ` of the point in `F_0`, in squares
-    /// of the length unit, for the parts l of the covariance and random sources of variances v, with
-    /// the Jacobians M and m of the point.
+    /// Returns the covariance `Σ_l (M l)(M l)ᵀ + Σ_k v_k m_k m_kᵀ` of the point in `F_0`, in
+    /// squares of the length unit, for the parts l of the covariance and random sources of
+    /// variances v, with the Jacobians M and m of the point.
     ///
     /// # Errors
     ///

@@ -70,9 +70,9 @@ const LINES_OF_A_POSITION: usize = 4;
 /// Sine below which an arm is stretched.
 const STRETCHED: f64 = 1e-3;
 
-/// Returns on which side of axis 1, and of the lower arm, the center of the wrist is, the latter about
-/// axes 2 and 3: sines whose signs change where the arm passes from one configuration into another; `None` for other
-/// machines than arms of six joints.
+/// Returns on which side of axis 1, and of the lower arm, the center of the wrist is, the latter
+/// about axes 2 and 3: sines whose signs change where the arm passes from one configuration into
+/// another; `None` for other machines than arms of six joints.
 fn sides(machine: &dyn Manipulator, q: &[f64]) -> Option<[f64; 3]> {
     let s = sampling::nominal_parameters(machine.description());
     let here = machine.pose(q, &s).ok()?.inverse();
@@ -153,7 +153,8 @@ impl Program {
             let at = found.get(0)?.start();
             (!before(at).contains(language.comment)).then_some(at)
         };
-        // Returns the places of the configuration of a position: behind it, or before it since its bracket.
+        // Returns the places of the configuration of a position: behind it, or before it since its
+        // bracket.
         let stated = |found: &Captures<'_>, at: usize| -> Vec<Range<usize>> {
             let since = starts[line(at).saturating_sub(LINES_OF_A_POSITION)];
             let (from, to) = match (language.is_configured_behind(), found.get(0)) {
