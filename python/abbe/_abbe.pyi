@@ -281,8 +281,8 @@ class Machine:
         """(…, nq): joints, within their limits, at which the ideal tool reaches `target` in F_0.
 
         `target`: poses (…, 4, 4) or tool points (…, 3), in the length unit. `q0`: start of each
-        search, home by default. Of one target, raises ValueError, with the reason, if no solution is
-        found; of several, its row is NaN, and a warning has their number.
+        search, home by default. Of one target, raises ValueError, with the reason, if no solution
+        is found; of several, its row is NaN, and a warning has their number.
 
         >>> import abbe
         >>> ur5 = abbe.load("ur5")
@@ -291,9 +291,9 @@ class Machine:
         True
         """
     def inverses(self, target: ArrayLike, q0: _Joints | None = None) -> _Array:
-        """(…, m, nq): all joints, within their limits, at which the ideal tool has the pose `target` in
-        F_0, those nearest to `q0` first; of several targets, rows beyond the solutions of one are
-        NaN.
+        """(…, m, nq): all joints, within their limits, at which the ideal tool has the pose `target`
+        in F_0, those nearest to `q0` first; of several targets, rows beyond the solutions of one
+        are NaN.
 
         `target`, `q0`: as for `inverse`, but of poses. Revolute joints have the full turn
         nearest to `q0`, and joints that are free to move there stay as in `q0`. Arms with a
@@ -307,8 +307,8 @@ class Machine:
         (8, 6)
         """
     def tool_covariance(self, q: _Joints, **inputs: _Input) -> _Array:
-        """(…, 3, 3): covariance of the tool point in F_0 of an identified machine: by the covariance of
-        what was identified, and by the random sources of the spec. Squares of the length unit.
+        """(…, 3, 3): covariance of the tool point in F_0 of an identified machine: by the covariance
+        of what was identified, and by the random sources of the spec. Squares of the length unit.
 
         `inputs`: as for `generalized_errors`. A machine whose spec has no covariance raises
         ValueError.
@@ -364,13 +364,13 @@ class Machine:
         """Computes the errors of every source, and of all sources together, over a workspace, and the
         verdict on the tolerances of the study.
 
-        `study`: path of a study file, or a study as a dict; `study_text`: its text. Without both: the study beside the
-        spec, or the study shipped with the manipulator, or joint samples. `tolerance`: in place of
-        that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list. `q`:
-        configurations (m, nq) in place of the study's workspace, with nominal inputs.
-        `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of the draws
-        and of the study's random samples. `figures`: collect data for `.report(folder)` and
-        `.figure(name)`.
+        `study`: path of a study file, or a study as a dict; `study_text`: its text. Without both:
+        the study beside the spec, or the study shipped with the manipulator, or joint samples.
+        `tolerance`: in place of that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or
+        both in a list. `q`: configurations (m, nq) in place of the study's workspace, with nominal
+        inputs. `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of
+        the draws and of the study's random samples. `figures`: collect data for `.report(folder)`
+        and `.figure(name)`.
 
         Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
 
@@ -400,13 +400,13 @@ class Machine:
         """Computes the errors of every source, and of all sources together, over a workspace, and the
         verdict on the tolerances of the study.
 
-        `study`: path of a study file, or a study as a dict; `study_text`: its text. Without both: the study beside the
-        spec, or the study shipped with the manipulator, or joint samples. `tolerance`: in place of
-        that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list. `q`:
-        configurations (m, nq) in place of the study's workspace, with nominal inputs.
-        `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of the draws
-        and of the study's random samples. `figures`: collect data for `.report(folder)` and
-        `.figure(name)`.
+        `study`: path of a study file, or a study as a dict; `study_text`: its text. Without both:
+        the study beside the spec, or the study shipped with the manipulator, or joint samples.
+        `tolerance`: in place of that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or
+        both in a list. `q`: configurations (m, nq) in place of the study's workspace, with nominal
+        inputs. `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of
+        the draws and of the study's random samples. `figures`: collect data for `.report(folder)`
+        and `.figure(name)`.
 
         Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
 

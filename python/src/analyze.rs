@@ -74,13 +74,13 @@ impl Machine {
     /// Computes the errors of every source, and of all sources together, over a workspace, and the
     /// verdict on the tolerances of the study.
     ///
-    /// `study`: path of a study file, or a study as a dict; `study_text`: its text. Without both: the study beside the
-    /// spec, or the study shipped with the manipulator, or joint samples. `tolerance`: in place of
-    /// that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list. `q`:
-    /// configurations (m, nq) in place of the study's workspace, with nominal inputs.
-    /// `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of the draws
-    /// and of the study's random samples. `figures`: collect data for `.report(folder)` and
-    /// `.figure(name)`.
+    /// `study`: path of a study file, or a study as a dict; `study_text`: its text. Without both:
+    /// the study beside the spec, or the study shipped with the manipulator, or joint samples.
+    /// `tolerance`: in place of that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or
+    /// both in a list. `q`: configurations (m, nq) in place of the study's workspace, with nominal
+    /// inputs. `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of
+    /// the draws and of the study's random samples. `figures`: collect data for `.report(folder)`
+    /// and `.figure(name)`.
     ///
     /// Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
     ///

@@ -107,8 +107,8 @@ impl Machine {
     /// (…, nq): joints, within their limits, at which the ideal tool reaches `target` in F_0.
     ///
     /// `target`: poses (…, 4, 4) or tool points (…, 3), in the length unit. `q0`: start of each
-    /// search, home by default. Of one target, raises ValueError, with the reason, if no solution is
-    /// found; of several, its row is NaN, and a warning has their number.
+    /// search, home by default. Of one target, raises ValueError, with the reason, if no solution
+    /// is found; of several, its row is NaN, and a warning has their number.
     ///
     /// >>> import abbe
     /// >>> ur5 = abbe.load("ur5")
@@ -132,9 +132,9 @@ impl Machine {
         filled(py, &[&lead[..], &[start.len()]].concat(), &rows)
     }
 
-    /// (…, m, nq): all joints, within their limits, at which the ideal tool has the pose `target` in
-    /// F_0, those nearest to `q0` first; of several targets, rows beyond the solutions of one are
-    /// NaN.
+    /// (…, m, nq): all joints, within their limits, at which the ideal tool has the pose `target`
+    /// in F_0, those nearest to `q0` first; of several targets, rows beyond the solutions of one
+    /// are NaN.
     ///
     /// `target`, `q0`: as for `inverse`, but of poses. Revolute joints have the full turn
     /// nearest to `q0`, and joints that are free to move there stay as in `q0`. Arms with a
@@ -174,8 +174,8 @@ impl Machine {
         filled(py, &[&lead[..], &[most, nq]].concat(), &rows)
     }
 
-    /// (…, 3, 3): covariance of the tool point in F_0 of an identified machine: by the covariance of
-    /// what was identified, and by the random sources of the spec. Squares of the length unit.
+    /// (…, 3, 3): covariance of the tool point in F_0 of an identified machine: by the covariance
+    /// of what was identified, and by the random sources of the spec. Squares of the length unit.
     ///
     /// `inputs`: as for `generalized_errors`. A machine whose spec has no covariance raises
     /// ValueError.

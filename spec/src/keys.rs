@@ -130,9 +130,9 @@ impl Keys {
 }
 
 impl Value {
-    /// Reads the notation of a value: `text`, `number`, `boolean`, `whole 1..9`, `word CHOICE`, `table HEADER`,
-    /// `tables HEADER`, and of others `open HEADER of …`, `names of …`, `list of …`, `3 of …`,
-    /// `either … or …`.
+    /// Reads the notation of a value: `text`, `number`, `boolean`, `whole 1..9`, `word CHOICE`,
+    /// `table HEADER`, `tables HEADER`, and of others `open HEADER of …`, `names of …`, `list of
+    /// …`, `3 of …`, `either … or …`.
     fn read(notation: &mut Split<'static, char>, words: fn(&str) -> Vec<&'static str>) -> Self {
         let word = notation.next().unwrap_or_default();
         let mut next = || notation.next().unwrap_or_default();

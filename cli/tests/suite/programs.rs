@@ -58,7 +58,7 @@ fn rotation([x, y, z]: [f64; 3]) -> Rows {
 struct Language {
     ending: &'static str,
     head: &'static str,
-    /// Of position, orientation, and joints in degrees.
+    /// Line of a position, with its orientation and its joints in degrees.
     line: fn([f64; 3], Rows, &[f64; 6]) -> String,
     /// Beginning of a line with a position.
     begins: &'static str,
@@ -358,7 +358,8 @@ fn configurations_choose_the_joints() {
     let wrong = |missed: &[f64]| missed.iter().filter(|distance| **distance > 1e-3).count();
     let (misses, said, corrected) = missed(&arm, rapid, &joints, line);
     assert!(wrong(&misses) == 0 && !said.contains("configuration"), "{misses:?}: {said}");
-    // Where a correction passes 0 or a quarter turn, what stands there is that of the corrected joints.
+    // Where a correction passes 0 or a quarter turn, what stands there is that of the corrected
+    // joints.
     let inverse = InverseKinematics::new(&arm.1, &[]).unwrap();
     let changes =
         |language: &Language, corrected: &str, joints: &[[f64; 6]], of: fn(&[f64; 6]) -> Vec<f64>| {

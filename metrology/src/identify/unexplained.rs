@@ -13,9 +13,9 @@ use abbe_study::calibration::random_sources;
 const EVALUATED: usize = 500;
 
 /// Returns the standard deviation along each axis of the position errors that neither the model,
-/// nor the instrument, nor the random sources of the spec explain, and whether these sources explain what
-/// the instrument does not. Returns 0 if all is explained with 95 % confidence, or if no positions
-/// were measured.
+/// nor the instrument, nor the random sources of the spec explain, and whether these sources
+/// explain what the instrument does not. Returns 0 if all is explained with 95 % confidence, or if
+/// no positions were measured.
 ///
 /// ```text
 /// s² = rms²/3 · n/(n − p) − σ² − Σ_k |u_k|²/3

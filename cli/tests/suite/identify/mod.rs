@@ -395,8 +395,8 @@ fn an_identified_spec_in_another_folder_keeps_its_tables() {
     prints(&["measure", &out, &data, "--map", &workshop.path("results/found.map.toml")]);
 }
 
-/// What the random sources of the spec scatter is not called an error that the model lacks; more
-/// than that is.
+/// Residuals that the random sources of the spec explain are not called errors that the model
+/// lacks; larger ones are.
 #[test]
 fn random_sources_explain_residuals() {
     let bench = Bench::new(POINT);

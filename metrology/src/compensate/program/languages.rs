@@ -21,7 +21,7 @@ pub(super) struct Language {
     /// Pattern of the configuration of a position, which follows it; a controller of FANUC has it
     /// before.
     configuration: &'static str,
-    /// What the groups of that pattern say.
+    /// Facts that the groups of that pattern state.
     pub(super) facts: fn(&[&str]) -> Vec<Fact>,
     /// The groups of that pattern as facts have them; nothing for one that stays.
     pub(super) restated: fn(&[Fact]) -> Vec<Option<String>>,
@@ -130,7 +130,8 @@ pub(super) const LANGUAGES: [Language; 5] = [
         comment: "!",
         // robtarget: trans, rot, robconf, extax. A wobjdata or tooldata has no list after rot.
         pose: r"\[ \[ # , # , # \] , \[ # , # , # , # \] , \[",
-        // cf1, cf4, cf6: quarter turns of axes 1, 4, 6. cfx: 4 behind axis 1, 2 behind the lower arm, 1 axis 5 < 0.
+        // cf1, cf4, cf6: quarter turns of axes 1, 4, 6. cfx: 4 behind axis 1, 2 behind the lower
+        // arm, 1 axis 5 < 0.
         configuration: r"^ # , # , # , # \]",
         facts: |groups| {
             let [cf1, cf4, cf6, cfx] = [0, 1, 2, 3].map(|i| groups[i].parse().unwrap_or(0));
@@ -163,8 +164,8 @@ pub(super) const LANGUAGES: [Language; 5] = [
         begins: &["DEF ", "DEFDAT ", "DEFFCT ", "GLOBAL DEF"],
         comment: ";",
         pose: r"(?i)\{ (?:\w+ : )?X # , Y # , Z # , A # , B # , C #",
-        // Status: bit 0 is set behind axis 1, bit 1 if axis 3 is beyond the stretched arm. Turn: bit i, if
-        // axis i + 1 is negative.
+        // Status: bit 0 is set behind axis 1, bit 1 if axis 3 is beyond the stretched arm. Turn:
+        // bit i, if axis i + 1 is negative.
         configuration: r"^(?i) , S (\d+|'B[01]+') , T (\d+|'B[01]+')",
         facts: |groups| {
             let bits = |text: &str| {
@@ -285,7 +286,8 @@ impl Language {
         }
     }
 
-    /// Compiles the patterns of poses, joints, elsewhere, relative positions, frames and configurations.
+    /// Compiles the patterns of poses, joints, elsewhere, relative positions, frames and
+    /// configurations.
     pub(super) fn patterns(&self) -> Option<[Regex; 6]> {
         const NUMBER: &str = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)";
         let compiled = |text: &str| Regex::new(&text.replace(' ', r"\s*").replace('#', NUMBER)).ok();

@@ -52,7 +52,7 @@ pub struct Program {
 struct Point {
     line: u64,
     is_pose: bool,
-    /// What its configuration says of the joints.
+    /// Facts that its configuration states.
     facts: Vec<Fact>,
     /// Places of its numbers.
     stated: Vec<Range<usize>>,
