@@ -268,3 +268,36 @@ test("a tool point of the study is loaded by a click, and changes are undone", a
     }
     assert.deepEqual(browser.errors(), []);
 });
+
+test("what is saved is what is shown", async () => {
+    await open("ur5");
+    const shown = await figures();
+    /** Presses a button, and returns the text or the first bytes of the file. */
+    const saved = (name) => browser.evaluate(`(async () => {
+        const file = new Promise((done) => (URL.createObjectURL = (blob) => (done(blob), "blob:none")));
+        HTMLAnchorElement.prototype.click = function () { globalThis.savedAs = this.download; };
+        [...document.querySelectorAll(".same button")].find((one) => one.textContent === ${JSON.stringify(name)}).click();
+        const blob = await file;
+        return [globalThis.savedAs, blob.type === "image/png" ? [...new Uint8Array(await blob.slice(0, 24).arrayBuffer())] : await blob.text()];
+    })()`);
+    const [name, sources] = await saved("Sources, CSV");
+    assert.equal(name, "ur5.sources.csv");
+    const rows = sources.trim().split("\n").map((line) => line.split(","));
+    assert.deepEqual(rows[0], ["source", "class", "at", "position error (mm)", "share", "factor"]);
+    for (const { name, value } of shown.sources) {
+        const row = rows.find((row) => row[0] === name);
+        assert.ok(Math.abs(Number(row[3]) - Number(value)) < 1e-3, name);
+    }
+    const [, study] = await saved("Study, CSV");
+    const [heading, ...configurations] = study.trim().split("\n").map((line) => line.split(","));
+    const largest = Math.max(...configurations.map((row) => Number(row[heading.indexOf("position error (mm)")])));
+    const [worst] = await browser.evaluate(`[...document.querySelectorAll(".searches p")].map(({ textContent }) => textContent)`);
+    assert.ok(worst.startsWith(`${digits(largest, 4)} mm`), `${worst} ${largest}`);
+    const [, svg] = await saved("Picture, SVG");
+    assert.match(svg, /^<svg[^>]* xmlns="http:\/\/www.w3.org\/2000\/svg"/);
+    assert.match(svg, / stroke="rgb\(/);
+    const [, png] = await saved("Picture, PNG");
+    assert.deepEqual(png.slice(0, 8), [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
+    assert.ok(png[18] * 256 + png[19] > 800, `${png}`);
+    assert.deepEqual(browser.errors(), []);
+});
