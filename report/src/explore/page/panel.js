@@ -6,6 +6,7 @@ import { createControls } from "./controls.js";
 import { button, html, setText } from "./dom.js";
 import { createMachine } from "./machine.js";
 import { createResiduals } from "./residuals.js";
+import { createPins } from "./pins.js";
 import { createSaved } from "./save.js";
 import { cloud, stateAt } from "./search.js";
 import { createSources } from "./sources.js";
@@ -136,16 +137,17 @@ export function mount(section, generated, report, index) {
     const measured = report.residuals ? [createResiduals(panel, report.residuals)] : [];
     const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel),
         createView(panel, report.residuals ? measured : [createWorkspace(panel)]), createSources(panel)];
+    const pins = createPins(panel);
     const [poses, jacobian, same, saved] = [createPoses(panel), createJacobian(panel), createSame(panel), createSaved(panel, view.element)];
     const sweep = report.variables.length > 0 ? [createSweep(panel)] : [];
     /** @type {{element: Element, update: () => void, settle?: () => void}[]} */
-    const parts = [verdict, controls, view, sources, ...sweep, poses, jacobian, same, saved];
+    const parts = [verdict, controls, view, sources, ...sweep, poses, pins, jacobian, same, saved];
     const box = (/** @type {string} */ name, /** @type {(Node | string)[]} */ ...children) => html("div", { class: name }, ...children);
     if (document.querySelector(".abbe-panel ~ .abbe-panel")) section.append(html("h2", { class: "title" }, report.title));
     section.append(box("top", refused, verdict.element, verdict.searches), box("body",
         box("side", controls.element, box("actions", back, reset)),
         box("main", box("columns", box("column", view.element, ...[...measured, ...sweep].map((part) => part.element)),
-            box("column", sources.element, poses.element)), jacobian.element, same.element, saved.element)));
+            box("column", sources.element, poses.element)), pins.element, jacobian.element, same.element, saved.element)));
     /** Parts on the screen; the others are drawn when they come into view. @type {Set<Element>} */
     const visible = new Set();
     const observer = new IntersectionObserver((entries) => entries.forEach(({ target, isIntersecting }) => {

@@ -301,3 +301,31 @@ test("what is saved is what is shown", async () => {
     assert.ok(png[18] * 256 + png[19] > 800, `${png}`);
     assert.deepEqual(browser.errors(), []);
 });
+
+test("pinned cases keep their errors beside those now", async () => {
+    await open("ur5");
+    await slide("q2", 0.3, 0);
+    const pinned = await figures();
+    const press = (name) => browser.evaluate(`[...document.querySelectorAll(".pins button")].find((one) => one.textContent === ${JSON.stringify(name)}).click()`);
+    const rows = () => browser.evaluate(`[...document.querySelectorAll(".pins tr")].map((row) => [...row.children].map(({ textContent }) => textContent))`);
+    await press("Pin this case");
+    await slide("q3", 0.8, 0);
+    const { name } = explored("ur5").report.sources[0];
+    await type(`factor of ${name}`, "2", "Enter");
+    const now = await figures();
+    const table = await rows();
+    assert.deepEqual(table[0], ["", "now", "case 1×"]);
+    const [, total, before] = table.find(([title]) => title === "position error (mm)");
+    assert.equal(Number(total), parseFloat(now.total));
+    const [, value, sign, difference] = /^(\S+) \(([−+])(\S+)\)$/.exec(before);
+    assert.equal(Number(value), Number(parseFloat(pinned.total).toFixed(value.split(".")[1].length)));
+    assert.ok(Math.abs((sign === "+" ? 1 : -1) * Number(difference) - (Number(value) - Number(total))) < 2e-4, before);
+    const differing = table.map(([title]) => title).filter((title) => /^q\d$/.test(title) || title.startsWith("factor"));
+    assert.deepEqual(differing, ["q3", `factor of ${name}`]);
+    await press("case 1");
+    assert.deepEqual((await figures()).lines.slice(0, 2), pinned.lines.slice(0, 2));
+    await press("×");
+    await figures();
+    assert.equal(await browser.evaluate(`document.querySelector(".pins table").hidden`), true);
+    assert.deepEqual(browser.errors(), []);
+});
