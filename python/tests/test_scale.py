@@ -175,7 +175,6 @@ def test_kubernetes_indexed_job(folder):
     count, [script] = spec["completions"], container["args"]
     assert f"/{count}\"" in script
     path = command_on_path(folder)
-    (folder / "parts").mkdir()
     for index in range(count):
         printed(folder, *container["command"], script, PATH=path, JOB_COMPLETION_INDEX=str(index))
     parts = sorted(str(part) for part in (folder / "parts").iterdir() if part.suffix == ".part")
