@@ -86,7 +86,7 @@ impl<'a> Prediction<'a> {
     ///
     /// # Errors
     ///
-    /// Errors as for [`Manipulator::real_pose`].
+    /// The configuration is outside of the domain of the machine, or its loops do not close.
     pub fn covariance(&self, q: Vec<f64>, u: Vec<f64>) -> Result<[[f64; 3]; 3], Failure> {
         let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
         let zero = vec![0.0; self.model.unknowns.len()];

@@ -1,10 +1,11 @@
 // Verdict: total error here, over the study and within the joint limits, against the tolerance.
 
 import { button, html, setText, spans } from "./dom.js";
-import { decimals, digits, parseValue, percent, short } from "./number.js";
+import { decimals, digits, parseValue, percent, roundedDown, short } from "./number.js";
 import { factorAt } from "./search.js";
 import { errorOf, times } from "./sources.js";
 import { lengthOf } from "./residuals.js";
+import { copyState } from "./state.js";
 import { searchWorst } from "./worker.js";
 /** @import { Panel } from "./panel.js" */
 
@@ -30,7 +31,14 @@ export function createVerdict(panel) {
     const start = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
     const varied = [...report.inputs, ...report.parameters].filter(({ range }) => range?.[0] != null && range[1] != null).map(({ name }) => name);
     const show = button("Show", () => panel.load(worst()), { "aria-label": `Show the worst case in the ${over}` });
-    const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, `Worst in the ${over}`), show, studyText),
+    /** Scales all sources so that the tolerance is met over the study. */
+    const meet = button("Meet it", () => {
+        const factor = factorAt(panel.cloud?.[panel.measurand].radius ?? 0, panel.tolerances[panel.measurand] ?? Infinity);
+        const next = copyState(panel.state);
+        next.factors = next.factors.map((one) => Number(roundedDown(one * (factor ?? 1), decimals(factor ?? 1, 3))));
+        panel.go(next);
+    }, { hidden: true, "aria-label": "Meet the tolerance: all sources by one factor" });
+    const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, `Worst in the ${over}`), show, meet, studyText),
         report.variables.length === 0 ? "" : html("div", {}, html("h2", {}, "Worst within the joint limits"), start, progress, boxText,
             varied.length > 0 ? html("label", {}, all, `vary ${varied.join(", ")} too`) : ""));
     const shareText = (/** @type {number} */ radius, limit = panel.tolerances[panel.measurand]) =>
@@ -104,6 +112,7 @@ export function createVerdict(panel) {
         setText(before, reference ? `before your changes ${errorText(panel, old, radius)}${change}` : "");
         if (searched !== key()) setText(boxText, "");
         const study = cloud?.[measurand];
+        meet.hidden = !study || limit === null || !isJudged || rows.length > 0 || study.radius <= limit;
         if (!study) return;
         const scaled = limit === null || !(study.radius > 0) ? "" : ` Tolerance met with all sources ${times(factorAt(study.radius, limit))}.`;
         const count = study.radii.filter((one) => limit !== null && one <= limit).length;
