@@ -547,8 +547,10 @@ class Machine:
         `resample=b`: repetition b of a bootstrap over configurations (`abbe.fleet.bootstrap` runs
         many). `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
 
-        `.report(folder)` writes report.html, found.toml and found.map.toml; `.load()` returns the
-        identified machine. Fields: `abbe.reports.IdentifyReport`.
+        `.table("rows")` has the residuals of every point in the frame of the instrument, with only
+        base and tool fitted ("x before" …) and with the identified model ("x" …). `.report(folder)`
+        writes report.html, found.toml and found.map.toml; `.load()` returns the identified machine.
+        Fields: `abbe.reports.IdentifyReport`.
         """
     def plan(
         self,

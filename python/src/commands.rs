@@ -35,6 +35,10 @@ impl Commands {
         let parts = PyTuple::new(py, [&self.q, &self.left, &self.reason])?;
         Ok((py.import("abbe._abbe")?.getattr("_commands")?, parts))
     }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(format!("<abbe commands: q of shape {}>", self.q.bind(py).getattr("shape")?))
+    }
 }
 
 /// Recreates pickled commands.

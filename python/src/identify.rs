@@ -32,8 +32,10 @@ impl Machine {
     /// `resample=b`: repetition b of a bootstrap over configurations (`abbe.fleet.bootstrap` runs
     /// many). `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
     ///
-    /// `.report(folder)` writes report.html, found.toml and found.map.toml; `.load()` returns the
-    /// identified machine. Fields: `abbe.reports.IdentifyReport`.
+    /// `.table("rows")` has the residuals of every point in the frame of the instrument, with only
+    /// base and tool fitted ("x before" …) and with the identified model ("x" …). `.report(folder)`
+    /// writes report.html, found.toml and found.map.toml; `.load()` returns the identified machine.
+    /// Fields: `abbe.reports.IdentifyReport`.
     #[pyo3(signature = (data, map, *, test=None, only=None, terms=None, robust=None, prior=None, folds=10, time=None, resample=None, accept=None, threads=None, progress=None))]
     fn identify(
         &self,
@@ -82,6 +84,7 @@ impl Machine {
         let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
         let document = move |report: &_| views::identification(&spec, &map, report);
         let found = Report::from_document("identify", &report, notes, document)?.with_spec("found.toml");
+        let found = found.with_rows(report.residual_rows());
         let found = found.with_pages(move || {
             let Identify { machine, map, .. } = &job;
             let test = unseen.iter().map(|test| ("test", test.source()));

@@ -81,3 +81,12 @@ def base_columns(machine, q):
     axes = dict(zip("prs", np.eye(3)[[0, 2, 1]], strict=True))
     moved = {f"e_{axis}": np.broadcast_to(direction, points.shape) for axis, direction in zip("xyz", np.eye(3), strict=True)}
     return moved | {f"e_{axis}": np.cross(direction, points) for axis, direction in axes.items()}
+
+
+def test_residuals_are_rows():
+    found = ur5.identify(ur5.simulate("ur5", samples=60, seed=1).table("rows"), "ur5")
+    rows = found.table("rows")
+    assert len(rows) == 60 and rows.columns[0] == "line" and not rows["test"].any()
+    for names, figures in ((["x before", "y before", "z before"], found.fit.base_and_tool), (["x", "y", "z"], found.fit.after)):
+        sizes = np.linalg.norm([rows[name] for name in names], axis=0)
+        assert np.sqrt(np.mean(sizes**2)) == pytest.approx(figures.rms) and sizes.max() == pytest.approx(figures.max)

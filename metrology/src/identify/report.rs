@@ -24,7 +24,7 @@ use super::{
     KnownDistanceFit, PointResidual,
 };
 use crate::AcceptanceVerdict;
-use crate::data::{Data, Summary, Unusable};
+use crate::data::{Data, Summary, Table, Unusable};
 use crate::sizes::Sizes;
 
 /// Identified errors, their uncertainty, and the accuracy of the identified machine.
@@ -137,6 +137,21 @@ pub struct Report {
 }
 
 impl Report {
+    /// Returns the residuals of every point, in the frame of the instrument and the length unit:
+    /// measurement minus the model with only base and tool fitted, then minus the identified model.
+    pub fn residual_rows(&self) -> Table {
+        let yes = |is: bool| Some(f64::from(u8::from(is)));
+        let row = |point: &PointResidual| {
+            let head = [Some(point.line as f64), yes(point.is_test), yes(point.is_rejected)];
+            head.into_iter()
+                .chain([point.before, point.after].as_flattened().iter().map(|v| Some(*v)))
+                .collect()
+        };
+        let heading = ["line", "test", "rejected", "x before", "y before", "z before", "x", "y", "z"];
+        let rows = self.points.iter().map(row).collect();
+        Table { heading: heading.map(str::to_owned).to_vec(), rows, ..Table::default() }
+    }
+
     /// Returns the residuals of the fitted points, without outliers; `None` for instruments that
     /// measure no points, and if the points were not requested.
     pub fn residuals(&self) -> Option<Residuals> {

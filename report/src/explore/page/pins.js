@@ -46,7 +46,7 @@ export function createPins(panel) {
         const cases = [{ name: "now", state, figures: machine.evaluate(state) }, ...pins];
         const headings = cases.map(({ name, state: kept }, i) => html("th", { scope: "col" }, ...(i === 0 ? [name]
             : [button(name, () => panel.go(kept), { "aria-label": `Load ${name}` }),
-                button("×", () => { pins.splice(i - 1, 1); settle(); }, { "aria-label": `Remove ${name}` })])));
+                button("×", () => { pins.splice(i - 1, 1); settle(); }, { "aria-label": `×: remove ${name}` })])));
         const of = (/** @type {(figures: Evaluation) => number} */ value) => cases.map(({ figures }) => value(figures));
         const { measurand } = panel;
         const own = measurand === "position" ? "length" : "angle";

@@ -37,7 +37,7 @@ export function createVerdict(panel) {
         const next = copyState(panel.state);
         next.factors = next.factors.map((one) => Number(roundedDown(one * (factor ?? 1), decimals(factor ?? 1, 3))));
         panel.go(next);
-    }, { hidden: true, "aria-label": "Meet the tolerance: all sources by one factor" });
+    }, { hidden: true, "aria-label": "Meet it: scale all sources so that the study keeps the tolerance" });
     const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, `Worst in the ${over}`), show, meet, studyText),
         report.variables.length === 0 ? "" : html("div", {}, html("h2", {}, "Worst within the joint limits"), start, progress, boxText,
             varied.length > 0 ? html("label", {}, all, `vary ${varied.join(", ")} too`) : ""));
