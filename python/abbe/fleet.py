@@ -150,12 +150,19 @@ def _items(fleet: Any, by: str | None) -> dict[str, Any]:
     found = dict(columns(fleet, "fleet", None)[0])
     if by not in found:
         raise ValueError(f"the table has no column `{by}`: its columns are {', '.join(found)}")
-    names = [f"{name:g}" if isinstance(name, float) else name for name in found.pop(by)]
+    names = [_name(name) for name in found.pop(by)]
+    if missing := sum(name in ("", "nan") for name in names):
+        raise ValueError(f"the column `{by}` is empty in {missing} of {len(names)} rows")
     places: dict[str, list[int]] = {}
     for place, name in enumerate(names):
         places.setdefault(name, []).append(place)
     arrays = {name: cells if isinstance(cells, np.ndarray) else np.array(cells, dtype=object) for name, cells in found.items()}
     return {name: {column: cells[rows] for column, cells in arrays.items()} for name, rows in places.items()}
+
+
+def _name(cell: Any) -> str:
+    """Return the name in a cell: a serial number may be a number."""
+    return str(int(cell)) if isinstance(cell, float) and cell.is_integer() else str(cell)
 
 
 def _attempt(job: Job, task: Task, on_error: str) -> list[Row]:

@@ -131,6 +131,15 @@ def test_what_is_done_is_not_done_again(tmp_path):
         abbe.fleet.map(job, items, engine="spark")
 
 
+def test_serial_numbers_are_names():
+    rows = {"serial": np.array([1000001, 1000002, 1000001]), "x": [1.0, 2.0, 3.0]}
+    found = abbe.fleet.map(lambda data: {"sum": float(data["x"].sum())}, rows, by="serial")
+    assert found == {"machine": ["1000001", "1000002"], "sum": [4.0, 2.0]}
+    rows["serial"] = [1.0, None, 2.5]
+    with pytest.raises(ValueError, match="`serial` is empty in 1 of 3 rows"):
+        abbe.fleet.map(len, rows, by="serial")
+
+
 @pytest.mark.parametrize("engine", ["ray", "dask"])
 def test_engines_give_the_same(engine, fleet):
     pytest.importorskip(engine if engine == "ray" else "distributed")
