@@ -17,7 +17,9 @@ class Keys:
     def to_dict(self) -> dict[str, Any]:
         """Return the keys as a spec file has them."""
         found: dict[str, Any] = {}
-        for field in dataclasses.fields(self):  # type: ignore[arg-type]
+        # Those of a base class come last: a source begins with its name.
+        own = type(self).__annotations__
+        for field in sorted(dataclasses.fields(self), key=lambda field: field.name not in own):  # type: ignore[arg-type]
             value = getattr(self, field.name)
             if value is not None:
                 table = found.setdefault(field.metadata["table"], {}) if "table" in field.metadata else found

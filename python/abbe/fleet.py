@@ -24,7 +24,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from ._abbe import Machine
+from ._abbe import Machine, __version__
 from ._arrays import columns
 from .reports import IdentifyReport
 
@@ -76,6 +76,11 @@ class Identify:
     def __call__(self, data: Any) -> IdentifyReport:
         return self.machine.identify(data, self.map, **self.options)
 
+    def mark(self) -> str:
+        """Return a mark of the job, which changes with its machine, map and options, and with the version of abbe."""
+        options = [(name, value, _mark(value)) for name, value in sorted(self.options.items())]
+        return hashlib.sha256(repr([__version__, self.machine.__reduce__()[1], _mark(self.map), options]).encode()).hexdigest()
+
 
 def identify(
     machine: Machine, files: Any, map: str | PathLike[str] | Mapping[str, Any], *, by: str | None = None, engine: Literal["local", "ray", "dask"] = "local",
@@ -105,7 +110,8 @@ def map(
 
     `on_error`: "row" makes a machine that fails a row with its message in the column `error`; "raise" raises it. `resume`: a folder,
     which is made if it is not there; rows are kept in it as soon as they are known, and read again when the same call is repeated.
-    Machines whose data have changed, or that failed, are computed again; another job needs another folder. `progress`: true prints the
+    Machines that failed, or whose data have changed, are computed again, and all with another version of abbe or, of `identify`, with
+    another machine, map or option; another function of yours needs another folder. `progress`: true prints the
     number of machines that are done; a function is called with it, and with their number.
     """
     return _map(job, fleet, by, engine, workers, on_error, resume, progress)
@@ -121,7 +127,7 @@ def _map(
         raise ValueError(f'on_error={on_error!r}: "row" or "raise"')
     workers = workers or len(getattr(os, "sched_getaffinity", lambda _: range(os.cpu_count() or 1))(0))
     items = _items(fleet, by)
-    kept = _Kept(resume, items) if resume is not None else None
+    kept = _Kept(resume, items, job) if resume is not None else None
     rows: dict[str, Row] = dict(kept.rows) if kept else {}
     waiting = [(name, item) for name, item in items.items() if name not in rows]
     size = max(1, min(_MOST, len(waiting) // (_TASKS * workers)))
@@ -150,8 +156,10 @@ def _items(fleet: Any, by: str | None) -> dict[str, Any]:
     found = dict(columns(fleet, "fleet", None)[0])
     if by not in found:
         raise ValueError(f"the table has no column `{by}`: its columns are {', '.join(found)}")
-    names = [_name(name) for name in found.pop(by)]
-    if missing := sum(name in ("", "nan") for name in names):
+    del found[by]
+    # As they stand: a serial number may have more digits than a float.
+    names = [_name(cell) for cell in np.asarray(fleet[by]).tolist()]
+    if missing := sum(name in ("", "nan", "None", "NaT", "<NA>") for name in names):
         raise ValueError(f"the column `{by}` is empty in {missing} of {len(names)} rows")
     places: dict[str, list[int]] = {}
     for place, name in enumerate(names):
@@ -171,7 +179,7 @@ def _attempt(job: Job, task: Task, on_error: str) -> list[Row]:
     for name, item in task:
         try:
             found = job(item)
-            rows.append({"machine": name} | dict(found) if isinstance(found, Mapping) and not hasattr(found, "to_json") else row(name, found))
+            rows.append({"machine": name} | dict(found) | {"machine": name} if isinstance(found, dict) else row(name, found))
         except Exception as error:
             if on_error == "raise":
                 raise
@@ -226,10 +234,11 @@ _ENGINES: dict[str, Callable[[Job, list[Task], int, str], Iterator[list[Row]]]] 
 class _Kept:
     """Rows of an earlier call, in a file of a folder."""
 
-    def __init__(self, folder: str | PathLike[str], items: Mapping[str, Any]) -> None:
+    def __init__(self, folder: str | PathLike[str], items: Mapping[str, Any], job: Job) -> None:
         Path(folder).mkdir(parents=True, exist_ok=True)
         self._file = Path(folder, "rows.jsonl")
-        self._marks = {name: _mark(item) for name, item in items.items()}
+        of_job = job.mark() if isinstance(job, Identify) else __version__
+        self._marks = {name: f"{of_job} {_mark(item)}" for name, item in items.items()}
         self.rows: dict[str, Row] = {}
         text = self._file.read_text(encoding="utf-8") if self._file.exists() else ""
         # A line that was being written when the process ended is not whole.
@@ -241,9 +250,14 @@ class _Kept:
             self._file.write_text(text[: text.rfind("\n") + 1], encoding="utf-8")
 
     def keep(self, rows: Iterable[Row]) -> None:
-        lines = "".join(json.dumps([self._marks[row["machine"]], row], default=lambda value: value.item()) + "\n" for row in rows)
+        lines = "".join(json.dumps([self._marks[row["machine"]], row], default=_as_json) + "\n" for row in rows)
         with open(self._file, "a", encoding="utf-8") as file:
             file.write(lines)
+
+
+def _as_json(value: Any) -> Any:
+    """Return what JSON has in place of an array, a number of NumPy, or anything else."""
+    return value.tolist() if isinstance(value, (np.ndarray, np.generic)) else str(value)
 
 
 def _mark(item: Any) -> str:

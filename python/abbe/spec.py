@@ -347,52 +347,8 @@ class Tool(Keys):
 
 
 @dataclass(kw_only=True)
-class Source(Keys):
-    """`[[source]]`."""
-
-    name: str
-    """Name of the source, by which studies and options refer to it; must be unique."""
-
-    class_: Literal["repeatable", "tolerance", "random"] = field(metadata={"key": "class"})
-    """Repeatable: a known value and sign. Tolerance: one fixed value in each machine, unknown within its bound.
-    Random: another value at each visit of a configuration. Key: `class`.
-    """
-
-    distribution: Literal["uniform", "normal", "triangular", "arcsine", "disc", "ball"] | None = None
-    """Distribution of a tolerance over machines, or of a random source; its value is the half-width of a uniform or
-    triangular distribution, the amplitude of an arcsine one, the standard deviation of a normal one, or the
-    semi-axis of a disc or ball, in which two or three errors of a frame are evenly distributed together. Default:
-    uniform for a tolerance; random sources must have it.
-    """
-
-    degrees_of_freedom: float | str | None = None
-    """Degrees of freedom of the standard deviation of a normal source, if it was estimated: n − 1 for n readings.
-    Unit: 1. Default: none: the standard deviation is known.
-    """
-
-    enabled: bool | None = None
-    """Includes the source; `--enable` and `--disable` change it for a run. Default: `true`."""
-
-    scale: float | str | None = None
-    """Factor of all errors of the source, which `abbe allocate` writes; `--scale` multiplies it. Unit: 1. Default:
-    `1`.
-    """
-
-    magnitude: Magnitude | None = None
-    """Factor of the source and its uncertainty; `identify` fits it together with the errors of the frames. Default:
-    none.
-    """
-
-    description: str | None = None
-    """Description of the error, for people. Default: empty."""
-
-    reference: str | None = None
-    """Origin of the value, such as a data sheet or a measurement. Default: empty."""
-
-    effects: Sequence[Effect] | None = field(default=None, metadata={"key": "effect"})
-    """Effects on several frames; those of a random source share one random number. Key: `effect`. Default: none: the
-    effect stands in the source.
-    """
+class Effect(Keys):
+    """`[[source.effect]]`."""
 
     frame: str | None = None
     """Frame that has the error; `"base"` is `F_0`, unless a frame has this name. Default: required without `joint`
@@ -456,68 +412,52 @@ class Source(Keys):
 
 
 @dataclass(kw_only=True)
-class Effect(Keys):
-    """`[[source.effect]]`."""
+class Source(Effect):
+    """`[[source]]`."""
 
-    frame: str | None = None
-    """Frame that has the error; `"base"` is `F_0`, unless a frame has this name. Default: required without `joint`
-    and `parameter`.
+    name: str
+    """Name of the source, by which studies and options refer to it; must be unique."""
+
+    class_: Literal["repeatable", "tolerance", "random"] = field(metadata={"key": "class"})
+    """Repeatable: a known value and sign. Tolerance: one fixed value in each machine, unknown within its bound.
+    Random: another value at each visit of a configuration. Key: `class`.
     """
 
-    at: str | None = None
-    """Location of the error on the link, as a transform from the frame; the error is in the axes of that location.
-    Unit: length unit or rad. Default: at the frame itself.
+    distribution: Literal["uniform", "normal", "triangular", "arcsine", "disc", "ball"] | None = None
+    """Distribution of a tolerance over machines, or of a random source; its value is the half-width of a uniform or
+    triangular distribution, the amplitude of an arcsine one, the standard deviation of a normal one, or the
+    semi-axis of a disc or ball, in which two or three errors of a frame are evenly distributed together. Default:
+    uniform for a tolerance; random sources must have it.
     """
 
-    e_x: float | str | None = None
-    """Translation along x of the frame. Unit: length unit. Default: `0`."""
+    degrees_of_freedom: float | str | None = None
+    """Degrees of freedom of the standard deviation of a normal source, if it was estimated: n − 1 for n readings.
+    Unit: 1. Default: none: the standard deviation is known.
+    """
 
-    e_y: float | str | None = None
-    """Translation along y of the frame. Unit: length unit. Default: `0`."""
+    enabled: bool | None = None
+    """Includes the source; `--enable` and `--disable` change it for a run. Default: `true`."""
 
-    e_z: float | str | None = None
-    """Translation along z of the frame. Unit: length unit. Default: `0`."""
+    scale: float | str | None = None
+    """Factor of all errors of the source, which `abbe allocate` writes; `--scale` multiplies it. Unit: 1. Default:
+    `1`.
+    """
 
-    e_s: float | str | None = None
-    """Spin: rotation about **y** of the frame. Unit: rad. Default: `0`."""
-
-    e_r: float | str | None = None
-    """Roll: rotation about **z** of the frame. Unit: rad. Default: `0`."""
-
-    e_p: float | str | None = None
-    """Pitch: rotation about **x** of the frame. Unit: rad. Default: `0`."""
-
-    beam: Beam | None = None
-    """Beam with the frame at its tip, which bends under the loads beyond it. Default: none."""
-
-    compliance: Compliance | None = None
-    """Elastic joint or bearing at the frame, which yields to the loads at it or beyond it. Default: none."""
-
-    joint: str | None = None
-    """Joint that has the `error`, for example of its encoder, gearbox or zero offset, or the `stiffness`. Default:
+    magnitude: Magnitude | None = None
+    """Factor of the source and its uncertainty; `identify` fits it together with the errors of the frames. Default:
     none.
     """
 
-    parameter: str | None = None
-    """Parameter with the `error`, wherever it occurs in the chain. Default: none."""
+    description: str | None = None
+    """Description of the error, for people. Default: empty."""
 
-    error: float | str | None = None
-    """Actual minus nominal value. Unit: as the joint or the parameter. Default: required with `parameter`; with
-    `joint`, this or `stiffness`.
+    reference: str | None = None
+    """Origin of the value, such as a data sheet or a measurement. Default: empty."""
+
+    effects: Sequence[Effect] | None = field(default=None, metadata={"key": "effect"})
+    """Effects on several frames; those of a random source share one random number. Key: `effect`. Default: none: the
+    effect stands in the source.
     """
-
-    stiffness: float | str | None = None
-    """Stiffness of the `joint`, which deviates by the moment of the loads about it (of a slide or leg, the force
-    along it, as in `"20 N/um"`), divided by the stiffness. Unit: give one. Default: rigid.
-    """
-
-    moment: float | str | None = None
-    """Measured moment (of a slide, force) on an elastic `joint`, for example an input that follows a torque sensor.
-    Unit: give one. Default: that of the loads.
-    """
-
-    dh: DHErrors | None = None
-    """Errors of the Denavit-Hartenberg numbers of the `frame`. Default: none."""
 
 
 @dataclass(kw_only=True)

@@ -2,7 +2,7 @@
 
 use abbe::analysis::sampling::vectors::{cross, dot};
 use abbe::analysis::{InverseKinematics, Target, inverse};
-use abbe::{Function, Pose};
+use abbe::{Pose, identify::Failure};
 use abbe_metrology::compensate;
 use abbe_study::calibration::{CalibrationErrors, Prediction};
 use abbe_study::mistake;
@@ -13,7 +13,6 @@ use pyo3::types::{PyDict, PyString, PyTuple};
 use rayon::prelude::*;
 
 use crate::arrays::{empty, numbers, output_array, tuple};
-use crate::functions::vec_of;
 use crate::job::{length, run};
 use crate::{Machine, guarded};
 
@@ -196,25 +195,28 @@ impl Machine {
         q: &Bound<'py, PyAny>,
         inputs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (spec, nq) = (&self.machine.spec, self.home().len());
+        let spec = &self.machine.spec;
         let description = abbe::Manipulator::description(&self.interpreter);
-        let signature = Function::RealPose.signature();
-        let given = numbers(q, "q", Some(self.variable_names.bind(py)))?;
-        let given = vec_of(given, "q", &signature.arguments[0], description)?;
-        let inputs = self.given_inputs(q, inputs, &given.lead)?;
-        let lead = given.lead.clone();
-        let (given, inputs) = (given.argument()?, inputs.argument()?);
+        let joints = self.given_joints(q)?;
+        let inputs = self.given_inputs(q, inputs, &joints.lead)?;
+        let lead = joints.lead.clone();
+        let (joints, inputs) = (joints.argument()?, inputs.argument()?);
         let errors = CalibrationErrors::new(spec);
         let prediction = Prediction::new(spec, &self.interpreter, &errors, [0.0; 3]);
         let prediction = prediction.ok_or_else(|| {
             PyValueError::new_err("the spec of this machine has no [covariance]: `identify` writes it")
         })?;
-        let nu = description.inputs.len();
-        let mut rows = Vec::with_capacity(9 * given.values.len() / nq.max(1));
-        for (i, q) in given.values.chunks_exact(nq.max(1)).enumerate() {
-            let u = if inputs.each { &inputs.values[i * nu..][..nu] } else { inputs.values };
-            let covariance = prediction.covariance(q.to_vec(), u.to_vec());
-            let covariance = covariance.map_err(|reason| PyValueError::new_err(reason.to_string()))?;
+        let mut rows = Vec::new();
+        for i in 0..lead.iter().product() {
+            py.check_signals()?;
+            let (q, u) = (joints.at(i, description.variables.len()), inputs.at(i, description.inputs.len()));
+            let covariance = prediction.covariance(q.to_vec(), u.to_vec()).map_err(|failure| {
+                let reason = match failure {
+                    Failure::Observation { error, .. } => error.to_string(),
+                    failure => failure.to_string(),
+                };
+                PyValueError::new_err(format!("configuration {i}: {reason}"))
+            })?;
             rows.extend(covariance.into_iter().flatten());
         }
         filled(py, &[&lead[..], &[3, 3]].concat(), &rows)
@@ -241,9 +243,7 @@ impl Machine {
         let usual = PyString::new(py, compensate::options::TOLERANCE).into_any();
         let tolerance = length("tolerance", tolerance.unwrap_or(&usual), &self.machine.spec)?;
         let weight = weight.map(|weight| length("weight", weight, &self.machine.spec)).transpose()?;
-        let names = self.variable_names.bind(py);
-        let signature = Function::RealPose.signature();
-        let given = vec_of(numbers(q, "q", Some(names))?, "q", &signature.arguments[0], description)?;
+        let given = self.given_joints(q)?;
         let inputs = self.given_inputs(q, inputs, &given.lead)?;
         let (lead, nq) = (given.lead.clone(), description.variables.len());
         let (given, inputs) = (given.argument()?, inputs.argument()?);

@@ -4,8 +4,7 @@ use abbe::{Function, Manipulator};
 use abbe_study::mistake;
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 
-use crate::arrays::{empty, numbers, output_array};
-use crate::functions::vec_of;
+use crate::arrays::{empty, output_array};
 use crate::{Machine, guarded};
 
 #[pymethods]
@@ -39,9 +38,7 @@ impl Machine {
             }
         };
         let description = self.interpreter.description();
-        let names = self.variable_names.bind(py);
-        let first = &function.signature().arguments[0];
-        let given = vec_of(numbers(q, "q", Some(names))?, "q", first, description)?;
+        let given = self.given_joints(q)?;
         let given_inputs = self.given_inputs(q, inputs, &given.lead)?;
         let (joints, inputs) = (given.argument()?, given_inputs.argument()?);
         let layout = self.layout(function);

@@ -58,8 +58,7 @@ impl Machine {
             let message = format!("this machine has no closed loops, so it has no `{}`", signature.name);
             return Err(PyValueError::new_err(message));
         }
-        let names = self.variable_names.bind(py);
-        let given = vec_of(numbers(q, "q", Some(names))?, "q", &signature.arguments[0], description)?;
+        let given = self.given_joints(q)?;
         let mut lead = given.lead.clone();
         let third = match *third {
             ThirdArgument::None => None,
@@ -128,6 +127,13 @@ impl Machine {
             PyValueError::new_err(refused.list.into_iter().map(|one| one.message).collect::<String>())
         })?;
         Ok(array)
+    }
+
+    /// Returns the configurations of an array (…, nq), or of a table with columns of the joints.
+    pub(crate) fn given_joints<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<ArgumentValues<'py>> {
+        let joints = &Function::RealPose.signature().arguments[0];
+        let array = numbers(q, "q", Some(self.variable_names.bind(q.py())))?;
+        vec_of(array, "q", joints, self.interpreter.description())
     }
 
     /// Returns the inputs: the nominal values, replaced by columns of the table `q` and by those
@@ -236,7 +242,7 @@ fn standard_deviations(array: &PyReadonlyArrayDyn<'_, f64>, name: &str, count: u
 
 /// Checks that the last dimension of an array is the length of the argument, or that the last two
 /// are frames and their six errors.
-pub(crate) fn vec_of<'py>(
+fn vec_of<'py>(
     array: PyReadonlyArrayDyn<'py, f64>,
     name: &str,
     argument: &Array,

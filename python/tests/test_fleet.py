@@ -145,3 +145,20 @@ def test_engines_give_the_same(engine, fleet):
     pytest.importorskip(engine if engine == "ray" else "distributed")
     _, files = fleet
     assert abbe.fleet.identify(ur5, files, "ur5", engine=engine, workers=2) == abbe.fleet.identify(ur5, files, "ur5")
+
+
+def test_nothing_is_lost_or_mixed_up(tmp_path):
+    # Serial numbers beyond the digits of a float, rows that name themselves, and arrays that are kept.
+    rows = {"serial": np.array([2**60, 2**60 + 1]), "x": [1.0, 2.0]}
+    job = lambda data: {"machine": "mine", "x": data["x"], "at": Path("here")}  # noqa: E731
+    first = abbe.fleet.map(job, rows, by="serial", resume=tmp_path)
+    again = abbe.fleet.map(job, rows, by="serial", resume=tmp_path)
+    assert first["machine"] == again["machine"] == [str(2**60), str(2**60 + 1)]
+    assert again["x"] == [[1.0], [2.0]] and again["at"] == ["here", "here"]
+
+
+def test_other_options_and_machines_are_computed_anew(fleet, tmp_path):
+    _, files = fleet
+    for machine, options in ((ur5, {}), (ur5, {"robust": "huber"}), (ur5.scale("base encoder", 0.5), {}), (ur5, {})):
+        kept = abbe.fleet.identify(machine, files, "ur5", resume=tmp_path, **options)
+        assert kept == abbe.fleet.identify(machine, files, "ur5", **options), options

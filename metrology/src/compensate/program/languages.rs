@@ -97,9 +97,10 @@ impl Fact {
             return self;
         }
         match self {
-            // By the shorter way.
+            // Whole turns are counted as before: the nearest number that stands for this quarter.
             Self::Quadrant(_, quarters) => {
-                Self::Quadrant(joint, quarters + if after > before { 1 } else { -1 })
+                let apart = ((after / 90.0).floor() as i32 - quarters).rem_euclid(4);
+                Self::Quadrant(joint, quarters + if apart == 3 { -1 } else { apart })
             }
             _ => Self::Negative(joint, after < 0.0),
         }
@@ -296,3 +297,6 @@ impl Language {
         all.into_iter().collect::<Option<Vec<Regex>>>()?.try_into().ok()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -72,7 +72,7 @@ const STRETCHED: f64 = 1e-3;
 
 /// Returns on which side of axis 1, and of the lower arm, the center of the wrist is, the latter
 /// about axes 2 and 3: sines whose signs change where the arm passes from one configuration into
-/// another; `None` for other machines than arms of six joints.
+/// another; `None` unless the first five joints turn.
 fn sides(machine: &dyn Manipulator, q: &[f64]) -> Option<[f64; 3]> {
     let s = sampling::nominal_parameters(machine.description());
     let here = machine.pose(q, &s).ok()?.inverse();

@@ -9,8 +9,15 @@ import { factorOf } from "./state.js";
 const DRAWN = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-opacity", "stroke-dasharray", "stroke-linecap", "stroke-linejoin",
     "opacity", "display", "font-family", "font-size", "font-weight", "paint-order"];
 
+/** Returns a cell of CSV; a text that a spreadsheet would execute begins with an apostrophe. @param {string | number} cell */
+function cellText(cell) {
+    const isFormula = typeof cell === "string" && /^['\s]*[=+\-@|＝＋－＠]/.test(cell);
+    const text = isFormula ? `'${cell}` : String(cell);
+    return /[",;\n\r\t]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
 /** Returns a table as CSV. @param {(string | number)[][]} rows */
-const csv = (rows) => rows.map((row) => row.map((cell) => (/[",\n]/.test(String(cell)) ? `"${String(cell).replaceAll('"', '""')}"` : cell)).join(",")).join("\n") + "\n";
+const csv = (rows) => `${rows.map((row) => row.map(cellText).join(",")).join("\n")}\n`;
 
 /** Returns the sources at the state. @param {Panel} panel @returns {string} */
 export function sourceTable({ report, state, figures, measurand, unit: { symbol, factor } }) {

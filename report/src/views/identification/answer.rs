@@ -232,9 +232,11 @@ fn residuals(report: &Report) -> String {
             .to_owned();
     }
     if report.found.is_random {
+        // Rotations have not been compared.
+        let what = if report.coordinates.is_empty() { "that" } else { "those of positions" };
         return format!(
             "The residuals are {} times the stated uncertainty of the instrument; the random sources of the spec \
-             explain that.",
+             explain {what}.",
             digits(report.uncertainty_factor, 3)
         );
     }

@@ -32,52 +32,59 @@ from typing import Literal
 from ._toml import File, Keys
 ";
 
-/// Classes, with the headers of their tables. The keys of `[manipulator]` are in a table of their
-/// own.
-const CLASSES: [(&str, &[&str]); 21] = [
-    ("Manipulator", &["[manipulator]", "the file"]),
-    ("Parameter", &["[parameters.NAME]"]),
-    ("Input", &["[inputs.NAME]"]),
-    ("Lookup", &["[tables.NAME]"]),
-    ("Axis", &["[tables.NAME.x]", "[tables.NAME.y]"]),
-    ("Frame", &["[[frame]]"]),
-    ("Variable", &["[frame.variable]", "[loop.variable]"]),
-    ("DH", &["[frame.dh]", "[frame.mdh]"]),
-    ("Origin", &["[frame.origin]"]),
-    ("Limit", &["[[limit]]"]),
-    ("Loop", &["[[loop]]"]),
-    ("Tool", &["[tool]"]),
-    ("Source", &["[[source]]"]),
-    ("Effect", &["[[source.effect]]"]),
-    ("DHErrors", &["[source.dh]", "[source.effect.dh]"]),
-    ("Magnitude", &["[source.magnitude]"]),
-    ("Beam", &["[source.beam]", "[source.effect.beam]"]),
-    ("Compliance", &["[source.compliance]", "[source.effect.compliance]"]),
-    ("Load", &["[[load]]"]),
-    ("Covariance", &["[covariance]"]),
-    ("CovarianceOf", &["[covariance.of]"]),
+/// Classes, with their bases and the headers of their tables. The keys of `[manipulator]` are in a
+/// table of their own.
+const CLASSES: [(&str, &str, &[&str]); 21] = [
+    ("Manipulator", "File", &["[manipulator]", "the file"]),
+    ("Parameter", "Keys", &["[parameters.NAME]"]),
+    ("Input", "Keys", &["[inputs.NAME]"]),
+    ("Lookup", "Keys", &["[tables.NAME]"]),
+    ("Axis", "Keys", &["[tables.NAME.x]", "[tables.NAME.y]"]),
+    ("Frame", "Keys", &["[[frame]]"]),
+    ("Variable", "Keys", &["[frame.variable]", "[loop.variable]"]),
+    ("DH", "Keys", &["[frame.dh]", "[frame.mdh]"]),
+    ("Origin", "Keys", &["[frame.origin]"]),
+    ("Limit", "Keys", &["[[limit]]"]),
+    ("Loop", "Keys", &["[[loop]]"]),
+    ("Tool", "Keys", &["[tool]"]),
+    ("Effect", "Keys", &["[[source.effect]]"]),
+    ("Source", "Effect", &["[[source]]"]),
+    ("DHErrors", "Keys", &["[source.dh]", "[source.effect.dh]"]),
+    ("Magnitude", "Keys", &["[source.magnitude]"]),
+    ("Beam", "Keys", &["[source.beam]", "[source.effect.beam]"]),
+    ("Compliance", "Keys", &["[source.compliance]", "[source.effect.compliance]"]),
+    ("Load", "Keys", &["[[load]]"]),
+    ("Covariance", "Keys", &["[covariance]"]),
+    ("CovarianceOf", "Keys", &["[covariance.of]"]),
 ];
 
 /// Formats the module.
 pub(super) fn module() -> String {
     let mut text = HEAD.to_owned();
-    for (name, headers) in &CLASSES {
-        let base = if headers.contains(&"the file") { "File" } else { "Keys" };
+    for (name, base, headers) in &CLASSES {
         let _ = write!(text, "\n\n@dataclass(kw_only=True)\nclass {name}({base}):\n");
         let titles: Vec<String> = headers.iter().map(|header| format!("`{header}`")).collect();
         docstring(&mut text, &format!("{}.", titles.join(", ")).replace("`the file`", "keys of the file"));
-        let mut written = Vec::new();
+        let of_base = CLASSES.iter().filter(|(other, ..)| other == base).flat_map(|(.., headers)| *headers);
+        let mut written: Vec<&str> = of_base.flat_map(|header| keys(header)).map(|key| key.name).collect();
         for header in *headers {
-            let tables = abbe_spec::tables().into_iter().filter(|keys| keys.tables.contains(header));
-            for key in tables.flat_map(|keys| &keys.keys) {
+            for key in keys(header) {
                 if key.name != "manipulator" && !written.contains(&key.name) {
                     written.push(key.name);
-                    field(&mut text, key, (base == "File").then_some(*header));
+                    field(&mut text, key, (*base == "File").then_some(*header));
                 }
             }
         }
     }
     text
+}
+
+/// Returns the keys of the table with a header.
+fn keys(header: &str) -> impl Iterator<Item = &'static Key> {
+    abbe_spec::tables()
+        .into_iter()
+        .filter(move |keys| keys.tables.contains(&header))
+        .flat_map(|keys| &keys.keys)
 }
 
 fn field(text: &mut String, key: &Key, header: Option<&str>) {
@@ -117,8 +124,8 @@ fn field(text: &mut String, key: &Key, header: Option<&str>) {
 
 fn annotation(value: &Value) -> String {
     let class = |header: &str| {
-        let found = CLASSES.iter().find(|(_, headers)| headers.contains(&header));
-        found.map_or_else(|| panic!("no class of {header}"), |(name, _)| (*name).to_owned())
+        let found = CLASSES.iter().find(|(.., headers)| headers.contains(&header));
+        found.map_or_else(|| panic!("no class of {header}"), |(name, ..)| (*name).to_owned())
     };
     match value {
         Value::Text => "str".to_owned(),
