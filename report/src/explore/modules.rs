@@ -11,8 +11,8 @@ macro_rules! modules {
 
 /// All modules; each imports from earlier ones only.
 const MODULES: &[(&str, &str)] = &modules![
-    "number.js" "dom.js" "state.js" "command.js" "worst_case.js" "machine.js" "search.js" "worker.js" "residuals.js" "workspace.js" "controls.js"
-    "view.js" "charts.js" "sources.js" "tables.js" "pins.js" "save.js" "verdict.js" "panel.js" "main.js"
+    "number.js" "dom.js" "state.js" "command.js" "worst_case.js" "machine.js" "search.js" "worker.js" "controls.js" "sources.js" "residuals.js" "workspace.js"
+    "drag.js" "view.js" "charts.js" "tables.js" "pins.js" "linked.js" "save.js" "verdict.js" "panel.js" "main.js"
 ];
 
 /// Returns the script: every module without its imports and the words `export`. Names are unique

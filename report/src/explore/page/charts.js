@@ -1,15 +1,16 @@
 // Chart of the errors along one joint, with the configurations of the study.
 
 import { shown } from "./controls.js";
-import { html, moveTo, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
+import { createNote, html, moveTo, nearest, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
 import { decimals, fixed } from "./number.js";
-import { sweep } from "./search.js";
+import { replaced, sweep } from "./search.js";
+import { errorOf } from "./sources.js";
 import { variableUnit } from "./state.js";
 /** @import { Panel } from "./panel.js" */
 
 const [LEFT, RIGHT, TOP, BOTTOM] = [48, 136, 20, 36];
-/** Number of points of a curve, of sources with a curve; distance in pixels at which a dot is picked. */
-const [POINTS, CURVES, NEAR] = [61, 4, 9];
+/** Number of points of a curve, and of sources with a curve. */
+const [POINTS, CURVES] = [61, 4];
 
 /** Returns the largest of the numbers that are finite. @param {number[]} values */
 const greatest = (values) => values.reduce((most, value) => (value > most ? value : most), -Infinity);
@@ -29,7 +30,8 @@ export function createSweep(panel) {
     const kinds = ["total", "repeatable", "random", ...Array.from({ length: CURVES }, () => "curve")];
     const lines = paths(...kinds);
     const [numbers, names, tip] = [svg("g"), svg("g"), svg("circle", { class: "tip", r: 4 })];
-    const drawing = svg("svg", { "aria-hidden": true }, grid, tolerance, dots, ...[...lines].reverse(), here, tip, numbers, names);
+    const note = createNote();
+    const drawing = svg("svg", { "aria-hidden": true }, grid, tolerance, dots, ...[...lines].reverse(), here, tip, numbers, names, note.element);
     const stage = html("div", { class: "chart" }, drawing);
     const summary = html("figcaption");
     const element = html("figure", { class: "sweep" }, html("h2", {}, "Error along joint ", chosen), stage, summary);
@@ -90,19 +92,31 @@ export function createSweep(panel) {
             return svg("text", { x: width - RIGHT + 6, y: at, class: kind }, name);
         }));
     }
+    const places = () => radii().map((error, i) => [across(report.configurations.q[i][panel.joint]), above(error)]);
+    /** Returns the value of the joint at a pointer. @param {MouseEvent} event */
+    const valueAt = ({ clientX }) => {
+        const x = clientX - stage.getBoundingClientRect().left;
+        return Math.min(to, Math.max(from, from + ((to - from) * (x - LEFT)) / (width - LEFT - RIGHT)));
+    };
     /** @param {PointerEvent} event */
     function pick(event) {
-        const { left, top: upper } = stage.getBoundingClientRect();
-        const [x, y] = [event.clientX - left, event.clientY - upper];
-        const away = radii().map((error, i) => Math.hypot(across(report.configurations.q[i][panel.joint]) - x, above(error) - y));
-        const nearest = away.indexOf(Math.min(...away));
-        if (event.type === "pointerdown" && away[nearest] < NEAR) return panel.load(nearest);
+        const near = event.type === "pointerdown" ? nearest(stage, places(), event) : -1;
+        if (near >= 0) return panel.load(near);
         stage.setPointerCapture(event.pointerId);
-        const value = from + ((to - from) * (x - LEFT)) / (width - LEFT - RIGHT);
-        panel.change(({ q }) => { q[panel.joint] = Math.min(to, Math.max(from, value)); });
+        panel.change(({ q }) => { q[panel.joint] = valueAt(event); });
+    }
+    /** Tells the error at a dot, or of the curve. @param {PointerEvent} event */
+    function hover(event) {
+        const { unit: { factor, symbol }, joint, state, measurand } = panel;
+        const near = nearest(stage, places(), event);
+        const value = valueAt(event);
+        const error = factor * (near >= 0 ? radii()[near] : machine.errors({ ...state, q: replaced(state.q, joint, value) })[measurand].radius);
+        note.tell(places()[near] ?? [across(value), above(error / factor)], `${errorOf(error, decimals(error, 4))} ${symbol} at `
+            + (near >= 0 ? `configuration ${near + 1}` : shown(Number(value.toPrecision(4)), variableUnit(report, joint), report.length)));
     }
     stage.addEventListener("pointerdown", pick);
-    stage.addEventListener("pointermove", (event) => { if (stage.hasPointerCapture(event.pointerId)) pick(event); });
+    stage.addEventListener("pointermove", (event) => (stage.hasPointerCapture(event.pointerId) ? pick : hover)(event));
+    stage.addEventListener("pointerleave", () => note.tell([NaN, NaN], ""));
     chosen.addEventListener("change", () => panel.change(() => { panel.joint = Number(chosen.value); }));
     onResize(drawing, (size) => panel.change(() => { [width, height] = size; }));
     return { element, update };

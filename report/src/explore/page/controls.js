@@ -48,6 +48,12 @@ export function createInput({ name, unit, ends, limits, get, set }, length) {
         set(parsed);
     };
     field.addEventListener("change", commit);
+    field.addEventListener("keydown", ({ key }) => {
+        if (key !== "Escape") return;
+        field.value = text;
+        explain("");
+        field.blur();
+    });
     field.addEventListener("focus", () => field.select());
     const update = () => {
         if (get() === current) return;

@@ -54,16 +54,43 @@ export function onResize(drawing, resized) {
 /** Distance in pixels at which a point is picked. */
 const PICKED = 10;
 
-/** Calls a function with the index of the nearest place at a click that is not the end of a drag. @param {HTMLElement} stage @param {() => number[][]} places in its pixels @param {(index: number) => void} picked */
-export function onPick(stage, places, picked) {
+/** Returns the index of the place nearest to a pointer; -1 if none is near. @param {HTMLElement} stage @param {number[][]} places in its pixels @param {MouseEvent} event */
+export function nearest(stage, places, { clientX, clientY }) {
+    const { left, top } = stage.getBoundingClientRect();
+    const away = places.map(([x, y]) => Math.hypot(x + left - clientX, y + top - clientY));
+    return away.reduce((best, distance, i) => (distance < (away[best] ?? PICKED) ? i : best), -1);
+}
+
+/** Writes a text beside a place in a drawing, or hides it without one. @typedef {(place: number[], text: string) => void} Tell */
+
+/** Creates a text that is written beside a place. @returns {{element: SVGElement, tell: Tell}} */
+export function createNote() {
+    const element = svg("text", { class: "note", y: -12 });
+    return { element, tell: (place, text) => {
+        setText(element, text);
+        element.setAttribute("text-anchor", place[0] > (element.ownerSVGElement?.clientWidth ?? 0) / 2 ? "end" : "start");
+        moveTo(element, text === "" ? [NaN, NaN] : place);
+    } };
+}
+
+/**
+ * Calls `picked` with the index of the nearest place at a click that is not the end of a drag, and tells its text while the
+ * pointer is there.
+ * @param {HTMLElement} stage @param {() => number[][]} places in its pixels @param {(index: number) => void} picked
+ * @param {(index: number) => string} text @param {Tell} tell
+ */
+export function onPick(stage, places, picked, text, tell) {
     let [x, y] = [0, 0];
     stage.addEventListener("pointerdown", ({ clientX, clientY }) => { [x, y] = [clientX, clientY]; });
-    stage.addEventListener("click", ({ clientX, clientY }) => {
-        const { left, top } = stage.getBoundingClientRect();
-        const away = places().map((place) => Math.hypot(place[0] + left - clientX, place[1] + top - clientY));
-        const index = away.reduce((best, distance, i) => (distance < (away[best] ?? PICKED) ? i : best), -1);
-        if (index >= 0 && Math.hypot(clientX - x, clientY - y) <= 3) picked(index);
+    stage.addEventListener("click", (event) => {
+        const index = nearest(stage, places(), event);
+        if (index >= 0 && Math.hypot(event.clientX - x, event.clientY - y) <= 3) picked(index);
     });
+    stage.addEventListener("pointermove", (event) => {
+        const index = event.buttons === 0 ? nearest(stage, places(), event) : -1;
+        tell(places()[index] ?? [NaN, NaN], index < 0 ? "" : text(index));
+    });
+    stage.addEventListener("pointerleave", () => tell([NaN, NaN], ""));
 }
 
 /** Returns the SVG path through points, with gaps where a number is not finite. @param {number[][]} points */

@@ -4,6 +4,7 @@ import { createSweep } from "./charts.js";
 import { commands } from "./command.js";
 import { createControls } from "./controls.js";
 import { button, html, setText } from "./dom.js";
+import { createLinked, follow } from "./linked.js";
 import { createMachine } from "./machine.js";
 import { createResiduals } from "./residuals.js";
 import { createPins } from "./pins.js";
@@ -76,6 +77,7 @@ export function mount(section, generated, report, index) {
     const panel = { report, generated, machine, index, state, figures: machine.evaluate(state), reference: null, cloud: null,
         measurand: "position", unit: { symbol: "", factor: 1 }, tolerances: { position, orientation }, joint: 0,
         refresh() {
+            follow(panel);
             frame ||= requestAnimationFrame(() => draw(false));
             clearTimeout(timer);
             timer = setTimeout(settle, SETTLED);
@@ -137,15 +139,15 @@ export function mount(section, generated, report, index) {
     const measured = report.residuals ? [createResiduals(panel, report.residuals)] : [];
     const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel),
         createView(panel, report.residuals ? measured : [createWorkspace(panel)]), createSources(panel)];
-    const pins = createPins(panel);
+    const [pins, linked] = [createPins(panel), createLinked(panel)];
     const [poses, jacobian, same, saved] = [createPoses(panel), createJacobian(panel), createSame(panel), createSaved(panel, view.element)];
     const sweep = report.variables.length > 0 ? [createSweep(panel)] : [];
     /** @type {{element: Element, update: () => void, settle?: () => void}[]} */
-    const parts = [verdict, controls, view, sources, ...sweep, poses, pins, jacobian, same, saved];
+    const parts = [verdict, controls, linked, view, sources, ...sweep, poses, pins, jacobian, same, saved];
     const box = (/** @type {string} */ name, /** @type {(Node | string)[]} */ ...children) => html("div", { class: name }, ...children);
     if (document.querySelector(".abbe-panel ~ .abbe-panel")) section.append(html("h2", { class: "title" }, report.title));
     section.append(box("top", refused, verdict.element, verdict.searches), box("body",
-        box("side", controls.element, box("actions", back, reset)),
+        box("side", controls.element, linked.element, box("actions", back, reset)),
         box("main", box("columns", box("column", view.element, ...[...measured, ...sweep].map((part) => part.element)),
             box("column", sources.element, poses.element)), pins.element, jacobian.element, same.element, saved.element)));
     /** Parts on the screen; the others are drawn when they come into view. @type {Set<Element>} */

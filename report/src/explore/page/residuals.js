@@ -2,7 +2,7 @@
 
 import { html, onPick, path, paths, roundStep } from "./dom.js";
 import { decimals, fixed } from "./number.js";
-/** @import { Residuals } from "./state.js" @import { Panel } from "./panel.js" */
+/** @import { Residuals } from "./state.js" @import { Tell } from "./dom.js" @import { Panel } from "./panel.js" */
 
 /** Part of the points' diagonal that the 95 % quantile of the vectors takes. */
 const LONG = 0.1;
@@ -52,5 +52,6 @@ export function createResiduals({ report, refresh, load }, residuals) {
         list.selectedIndex = row + 1;
         load(row);
     };
-    return { element, keys: [], marks, draw, listen: (/** @type {HTMLElement} */ stage) => onPick(stage, () => places, pick) };
+    return { element, keys: [], marks, draw, listen: (/** @type {HTMLElement} */ stage, /** @type {Tell} */ tell) =>
+        onPick(stage, () => places, pick, (row) => texts[row], tell) };
 }

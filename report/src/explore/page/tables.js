@@ -36,7 +36,7 @@ export function createPoses(panel) {
 /** Creates the error Jacobian: a table for each frame, shaded by the size of the entries. @param {Panel} panel */
 export function createJacobian({ report: { length, frames, rows, columns }, machine, state }) {
     const tables = frames.map(({ name }, i) => createTable(`Frame ${i + 1}: ${name}`, columns.slice(6 * i, 6 * i + 6), rows));
-    const element = html("section", { class: "jacobian" }, html("h2", {}, "Error Jacobian J_e: ΔX = J_e ε"),
+    const element = html("details", { class: "jacobian" }, html("summary", {}, "Error Jacobian J_e: ΔX = J_e ε"),
         html("p", {}, `Rows x, y, z: ${length} per ${length} (e_x e_y e_z) or ${length} per rad (e_s e_r e_p, about y, z, x). `
             + "Other rows: rad per rad. Shaded by size, compared with the largest entry in the same unit."),
         html("div", { class: "frames" }, ...tables.map((table) => table.element)));

@@ -1,12 +1,13 @@
 // Picture of the arm in parallel projection, with the exaggerated real machine and the error of the tool point.
 
 import { jointEnds } from "./controls.js";
-import { button, html, moveTo, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
+import { followed } from "./drag.js";
+import { button, createNote, html, moveTo, nearest, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
 import { quantity } from "./number.js";
 import { replaced } from "./search.js";
-/** @import { Panel } from "./panel.js" */
+/** @import { Tell } from "./dom.js" @import { Panel } from "./panel.js" */
 
-/** Points in the picture, with their key. @typedef {{keys: Element[], marks: SVGElement[], draw: (project: (point: number[]) => number[]) => void, listen: (stage: HTMLElement) => void}} Points */
+/** Points in the picture, with their key. @typedef {{keys: Element[], marks: SVGElement[], draw: (project: (point: number[]) => number[]) => void, listen: (stage: HTMLElement, tell: Tell) => void}} Points */
 
 /** Number of configurations of the study that give the size of the picture, and of points on the path of a joint. */
 const [SAMPLES, PATH_POINTS] = [200, 48];
@@ -20,7 +21,7 @@ const KEYS = { ArrowLeft: [-6, 0, 1], ArrowRight: [6, 0, 1], ArrowUp: [0, 6, 1],
 /** @param {number[]} frame @returns {number[]} its origin */
 const originOf = (frame) => [frame[9], frame[10], frame[11]];
 
-/** Creates the picture: drag or arrow keys turn it; pinch, + and -, and with the focus the wheel zoom. @param {Panel} panel @param {Points[]} measured */
+/** Creates the picture: the tool point is dragged to move the joints; elsewhere drag or arrow keys turn it; pinch, + and -, and with the focus the wheel zoom. @param {Panel} panel @param {Points[]} measured */
 export function createView(panel, measured) {
     const { report, machine, generated } = panel;
     const { up, frames, variables } = report;
@@ -31,17 +32,20 @@ export function createView(panel, measured) {
     const size = Math.max(...ends.map(([least, most]) => most - least)) || 1;
     const grid = roundStep(size / 6);
     let [azimuth, elevation] = DIRECTION;
-    let [zoom, scale, magnification, sides, middle] = [1, 1, 0, [0, 0], [0, 0]];
+    let [zoom, scale, magnification, sides, middle, tool] = [1, 1, 0, [0, 0], [0, 0], [0, 0]];
+    /** Pointer that drags the tool point. @type {number | null} */
+    let dragging = null;
     const circle = (/** @type {string} */ name) => svg("circle", { class: name, r: 4 });
     const [floor, reach, ghost, links, vector] = paths("floor", "reach", "ghost", "links", "vector");
     const axes = paths("axis x", "axis y", "axis z");
     const names = ["x", "y", "z"].map((name) => svg("text", { class: `axis ${name}`, x: 3, y: 3 }, name));
     const [origins, labels] = [frames.map(() => circle("origin")), [...frames, 0].map(() => svg("text", { x: 8, y: -8 }))];
+    const note = createNote();
     const [tolerance, bound, tip] = [circle("tolerance"), circle("random"), circle("tip")];
     const drawing = svg("svg", { "aria-hidden": true }, floor, reach, tolerance, ghost, links, ...measured.flatMap(({ marks }) => marks), ...axes,
-        ...origins, bound, vector, tip, ...names, ...labels);
+        ...origins, bound, vector, tip, ...names, ...labels, note.element);
     const stage = html("div", { class: "stage", tabindex: 0, role: "application",
-        "aria-label": "Picture of the manipulator: arrow keys turn it, + and - zoom, 0 resets" }, drawing);
+        "aria-label": "Picture of the manipulator: arrow keys turn it, + and - zoom, 0 resets; the joints move the tool point" }, drawing);
     const [ideal, real, limit] = ["ideal", "real", "tolerance"].map((name) => html("span", { class: `key ${name}` }, html("i"), html("span", {}, name)));
     const element = html("figure", { class: "view" }, stage, html("figcaption", {}, ideal, real, limit, ...measured.flatMap(({ keys }) => keys),
         `grid ${quantity(grid, report.length)}`, html("span", { class: "buttons" },
@@ -87,14 +91,18 @@ export function createView(panel, measured) {
             moveTo(label, places[i]);
         });
     }
+    /** Returns the projection to pixels. @returns {(point: number[]) => number[]} */
+    function projection() {
+        const flat = camera();
+        return (point) => flat(point).map((value, i) => sides[i] / 2 + zoom * scale * (value - middle[i]));
+    }
     function update() {
         if (sides[0] === 0) return;
         const { state, figures, tolerances, joint } = panel;
         if (magnification === 0) magnify();
-        const [flat, poses] = [camera(), machine.frames(state, magnification)];
-        const project = (/** @type {number[]} */ point) => flat(point).map((value, i) => sides[i] / 2 + zoom * scale * (value - middle[i]));
+        const [project, poses] = [projection(), machine.frames(state, magnification)];
         const places = poses.ideal.map((frame) => project(originOf(frame)));
-        const tool = places[places.length - 1];
+        tool = places[places.length - 1];
         const error = project(originOf(figures.pose).map((value, i) => value + magnification * figures.displacement[i]));
         // Path of the tool point while the joint that was moved last moves between its limits.
         const [least, most] = variables.length > 0 ? jointEnds(report, joint) : [0, 0];
@@ -125,6 +133,17 @@ export function createView(panel, measured) {
         magnification = Math.max(1, roundStep((VECTOR * size) / length));
         setText(real.children[1], `${report.has_loops ? "error of the tool point" : "real, errors"} × ${magnification}`);
     }
+    /** Where the tool point was when it was taken, from the pointer. */
+    let grip = tool;
+    const isAtTool = (/** @type {MouseEvent} */ event) => variables.length > 0 && nearest(stage, [tool], event) === 0;
+    /** Moves the joints so that the tool point is at a place, in pixels. @param {number} x @param {number} y */
+    function drag(x, y) {
+        stage.classList.add("dragged");
+        const project = projection();
+        panel.change((state) => {
+            state.q = followed(report, state.q, (q) => project(originOf(Array.from(generated.pose(q, state.s)))), [x, y]);
+        });
+    }
     /** @type {Map<number, number[]>} */
     const pointers = new Map();
     const spread = ([a, b] = [...pointers.values()]) => (b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0);
@@ -132,12 +151,20 @@ export function createView(panel, measured) {
         const [last, before] = [pointers.get(pointerId), spread()];
         if (!last) return;
         pointers.set(pointerId, [clientX, clientY]);
-        if (before > 0) turn(0, 0, spread() / before);
+        if (pointerId === dragging) drag(clientX - grip[0], clientY - grip[1]);
+        else if (before > 0) turn(0, 0, spread() / before);
         else turn(0.4 * (clientX - last[0]), 0.4 * (clientY - last[1]), 1);
     });
-    stage.addEventListener("pointerdown", ({ pointerId }) => stage.setPointerCapture(pointerId));
+    stage.addEventListener("pointerdown", (event) => {
+        if (isAtTool(event) && pointers.size === 0) [dragging, grip] = [event.pointerId, [event.clientX - tool[0], event.clientY - tool[1]]];
+        stage.setPointerCapture(event.pointerId);
+    });
     stage.addEventListener("gotpointercapture", ({ pointerId, clientX, clientY }) => pointers.set(pointerId, [clientX, clientY]));
-    stage.addEventListener("lostpointercapture", ({ pointerId }) => pointers.delete(pointerId));
+    stage.addEventListener("lostpointercapture", ({ pointerId }) => {
+        pointers.delete(pointerId);
+        if (pointerId === dragging) dragging = null;
+        stage.classList.remove("dragged");
+    });
     stage.addEventListener("wheel", (event) => {
         // Without the focus the page scrolls.
         if (document.activeElement !== stage) return;
@@ -151,7 +178,10 @@ export function createView(panel, measured) {
         event.preventDefault();
         turn(right, down, factor);
     });
-    measured.forEach(({ listen }) => listen(stage));
+    measured.forEach(({ listen }) => listen(stage, note.tell));
+    stage.addEventListener("pointermove", (event) => {
+        if (event.buttons === 0 && isAtTool(event)) note.tell(tool, "tool point: drag it");
+    });
     onResize(drawing, (resized) => (sides = resized, reset()));
     return { element, update, settle: () => (magnify(), update()) };
 }

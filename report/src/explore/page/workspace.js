@@ -1,8 +1,10 @@
 // Tool points of the study's configurations in the picture, coloured by their error, and a configuration to load.
 
 import { html, onPick, path, paths, setText } from "./dom.js";
+import { decimals } from "./number.js";
 import { stateAt } from "./search.js";
-/** @import { Panel } from "./panel.js" */
+import { errorOf } from "./sources.js";
+/** @import { Tell } from "./dom.js" @import { Panel } from "./panel.js" */
 
 /** Creates the points, which `draw` moves, and their key. @param {Panel} panel */
 export function createWorkspace(panel) {
@@ -33,5 +35,10 @@ export function createWorkspace(panel) {
             keys[k].hidden = kind ? limit === null : radii.length === 0;
         });
     }
-    return { keys, marks, draw, listen: (/** @type {HTMLElement} */ stage) => onPick(stage, () => places, load) };
+    const text = (/** @type {number} */ i) => {
+        const { cloud, measurand, unit: { factor, symbol } } = panel;
+        const error = factor * (cloud?.[measurand].radii[i] ?? NaN);
+        return `${errorOf(error, decimals(error, 4))} ${symbol} at configuration ${i + 1}`;
+    };
+    return { keys, marks, draw, listen: (/** @type {HTMLElement} */ stage, /** @type {Tell} */ tell) => onPick(stage, () => places, load, text, tell) };
 }

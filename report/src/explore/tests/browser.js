@@ -71,9 +71,11 @@ export async function startBrowser(size) {
             }
             await send("Input.dispatchMouseEvent", { type: "mouseReleased", x: toX, y: toY, button: "left", clickCount: 1 });
         },
+        /** Moves the mouse. */
+        hover: ([x, y]) => send("Input.dispatchMouseEvent", { type: "mouseMoved", x, y }),
         /** Presses a key that has a name. */
         async press(key) {
-            const windowsVirtualKeyCode = { Tab: 9, Enter: 13, ArrowLeft: 37, ArrowRight: 39 }[key];
+            const windowsVirtualKeyCode = { Tab: 9, Enter: 13, Escape: 27, ArrowLeft: 37, ArrowRight: 39 }[key];
             const text = key === "Enter" ? "\r" : undefined;
             await send("Input.dispatchKeyEvent", { type: text ? "keyDown" : "rawKeyDown", key, code: key, windowsVirtualKeyCode, text });
             await send("Input.dispatchKeyEvent", { type: "keyUp", key, code: key, windowsVirtualKeyCode });

@@ -343,3 +343,74 @@ test("pinned cases keep their errors beside those now", async () => {
     assert.equal(await browser.evaluate(`document.querySelector(".pins table").hidden`), true);
     assert.deepEqual(browser.errors(), []);
 });
+
+/** Returns the middle of the circle of the tool point in the picture, on the screen. */
+const toolPoint = () => browser.evaluate(`(() => {
+    const stage = document.querySelector(".view .stage");
+    stage.scrollIntoView({ block: "center" });
+    const { x, y, width, height } = document.querySelector(".view .tip").getBoundingClientRect();
+    return [x + width / 2, y + height / 2];
+})()`);
+
+test("the tool point follows the mouse, values are told under it, and a field is left as it was", async () => {
+    const { report } = explored("ur5");
+    await open("ur5");
+    const before = await figures();
+    const [x, y] = await toolPoint();
+    await browser.hover([x, y]);
+    const note = (where) => browser.evaluate(`document.querySelector("${where} .note").textContent`);
+    assert.equal(await note(".view"), "tool point: drag it");
+    await browser.drag([x, y], [x - 30, y + 20]);
+    const after = await figures();
+    assert.notEqual(after.lines[0], before.lines[0]);
+    await assertAgrees(report);
+    const moved = await toolPoint();
+    assert.ok(Math.hypot(moved[0] - x + 30, moved[1] - y - 20) < 1, `${moved} ${x} ${y}`);
+    // Over the curve the value is that which the panel then shows.
+    const { left, top, width, height } = await browser.evaluate(`(() => {
+        const stage = document.querySelector(".chart");
+        stage.scrollIntoView({ block: "center" });
+        return stage.getBoundingClientRect().toJSON();
+    })()`);
+    const over = [left + 0.4 * width, top + height - 40];
+    await browser.hover(over);
+    const [, told] = /^(\S+ mm) at /.exec(await note(".chart"));
+    await browser.click(...over);
+    assert.equal((await figures()).total, told);
+    await rectangle("q2");
+    const value = `[...document.querySelectorAll("[aria-label]")].find((one) => one.ariaLabel === "q2")`;
+    const kept = await browser.evaluate(`(${value}.focus(), ${value}.select(), ${value}.value)`);
+    await browser.type("12345");
+    await browser.press("Escape");
+    assert.equal(await browser.evaluate(`${value}.value`), kept);
+    assert.deepEqual(browser.errors(), []);
+});
+
+test("joints of two machines move together", async () => {
+    const path = join(folder, "two.html");
+    abbe("explore", "ur5", "puma560", "--out", path, "--force");
+    await browser.open(`file://${path}`);
+    await figures();
+    const joints = () => browser.evaluate(`[...document.querySelectorAll(".abbe-panel")].map((panel) =>
+        [...panel.querySelectorAll("fieldset:first-child input[type=text]")].map(({ value }) => value))`);
+    const text = () => browser.evaluate(`document.querySelectorAll(".linked span")[1].textContent`);
+    const apart = await joints();
+    assert.notDeepEqual(apart[0], apart[1]);
+    assert.equal(await text(), "");
+    await browser.evaluate(`document.querySelectorAll(".linked input")[1].click()`);
+    await figures();
+    // The other machine does not go beyond its limits.
+    for (const [q2, theirs] of [["23°", "23°"], ["115°", "115°"], ["-69°", "115°"]]) {
+        await browser.evaluate(`(() => {
+            const field = [...document.querySelectorAll("[aria-label]")].find((one) => one.ariaLabel === "q2");
+            field.value = "${q2}";
+            field.dispatchEvent(new Event("change"));
+        })()`);
+        await figures();
+        assert.deepEqual((await joints()).map((values) => values[1]), [q2, theirs]);
+    }
+    const totals = await browser.evaluate(`[...document.querySelectorAll(".verdict .total")].map(({ textContent }) => parseFloat(textContent))`);
+    const [, difference, word] = /^(\S+) mm (less|more) than there$/.exec(await text());
+    assert.ok(Math.abs((word === "more" ? 1 : -1) * Number(difference) - (totals[1] - totals[0])) < 2e-3, `${totals} ${difference} ${word}`);
+    assert.deepEqual(browser.errors(), []);
+});
