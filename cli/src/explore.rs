@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Explore) -> Result<Outcome> {
     let mut outputs = Outputs::new(&files, arguments.writing.force);
     if jobs.len() > 2 {
         let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("live-pages"));
-        return pages(&folder, &names, outputs, run);
+        return pages(&folder, &names, outputs, &jobs);
     }
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}.html", names.join("-"))));
     let page = outputs.file(&path)?;
@@ -79,7 +79,7 @@ fn pages(
     folder: &Path,
     names: &[&str],
     mut outputs: Outputs,
-    run: impl FnOnce() -> Result<Vec<Report>>,
+    jobs: &[explore::Explore<'_>],
 ) -> Result<Outcome> {
     let is_taken = |i: usize| names[..i].contains(&names[i]) || names[i] == "index";
     if let Some(i) = (0..names.len()).find(|i| is_taken(*i)) {
@@ -87,7 +87,13 @@ fn pages(
         return Err(Failure::new("SPEC", message).help("give the manipulator of the spec another name"));
     }
     outputs.folder(folder)?;
-    let files = abbe_report::gallery(&run()?);
+    let mut console = Console::default();
+    let machines = jobs.iter().map(|job| {
+        let mut analysis = job.analysis.clone().into_owned();
+        analysis.figures = true;
+        Ok((job.run(&mut console)?, analysis.run(&mut console)?))
+    });
+    let files = abbe_report::gallery(&machines.collect::<Result<Vec<_>, Failure>>()?);
     outputs.write(files.iter().map(|file| (folder.join(&file.name), &file.text)))?;
     let index = folder.join(abbe_report::INDEX);
     note(&format!("wrote {} pages; open {} in a browser", names.len(), index.display()));

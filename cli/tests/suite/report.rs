@@ -10,7 +10,7 @@ use tempfile::tempdir;
 
 use crate::analyses::analysis;
 use crate::explore::without_scripts;
-use crate::running::{abbe, prints, shipped, write};
+use crate::running::{abbe, full, prints, shipped, write};
 
 /// Reads the files of a folder.
 pub(crate) fn files(folder: &Path) -> BTreeMap<String, String> {
@@ -93,6 +93,58 @@ fn the_papers_figures_are_drawn() {
         assert!(files.contains_key(csv));
     }
     assert_eq!(files.len(), 12, "and nothing else but the record: {:?}", files.keys());
+}
+
+/// An arm whose lengths have units.
+const UNITS: &str = r#"
+[manipulator]
+name = "arm"
+title = "Arm"
+length = "m"
+[[frame]]
+name = "shoulder"
+variable = { name = "q1", kind = "revolute", limits = ["-90 deg", "90 deg"] }
+transform = "Rz(q1) Tx(0.4 m)"
+[[frame]]
+name = "lift"
+variable = { name = "d2", kind = "prismatic", limits = ["0 mm", "250 mm"] }
+transform = "Tz(d2) Tx(300 mm)"
+[[source]]
+name = "encoder"
+class = "random"
+distribution = "normal"
+joint = "q1"
+error = "0.1 mrad"
+[[source]]
+name = "foot"
+class = "repeatable"
+frame = "shoulder"
+e_x = "0.2 mm"
+[[source]]
+name = "seat"
+class = "tolerance"
+frame = "lift"
+e_x = "20 um"
+"#;
+
+#[test]
+fn errors_are_in_millimetres_whatever_the_unit_of_the_spec() {
+    let folder = tempdir().unwrap();
+    let [metres, millimetres] = ["m", "mm"].map(|unit| {
+        let text = UNITS.replace("length = \"m\"", &format!("length = \"{unit}\""));
+        let (spec, out) = (write(folder.path(), "arm.toml", &text), folder.path().join(unit));
+        let tolerance = ["--tolerance", "0.25 mm", "--out", out.to_str().unwrap()];
+        let screen =
+            full(&[&["analyze", spec.to_str().unwrap(), "--monte-carlo", "2000"], &tolerance[..]].concat());
+        // Where several configurations are equally bad, rounding chooses one.
+        let (errors, _) = screen.split_once("Norms of the errors").expect("a table");
+        let errors = errors.lines().filter(|line| !line.contains("d2 =")).map(str::to_owned);
+        let page = &files(&out)["report.html"];
+        let cards = page.lines().filter(|line| line.contains("class=\"card\"")).map(str::to_owned);
+        errors.chain(cards).collect::<Vec<_>>()
+    });
+    assert_eq!(metres, millimetres);
+    assert!(metres.iter().any(|line| line.contains("<b>0.3041 mm</b>")), "{metres:?}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use abbe_study::analyze::{
 };
 use abbe_study::number::{self, percent, short};
 
-use crate::unit::{self, decimals};
+use crate::unit::{self, decimals, position};
 use crate::views::shared::dead_point;
 
 /// Returns the results in sentences: tolerance, compensation, first-order
@@ -64,17 +64,14 @@ pub(super) fn exact(report: &Report) -> &'static str {
     }
 }
 
-pub(super) fn show(report: &Report, value: f64) -> String {
-    format!("{} {}", number::trimmed(value, decimals(report)), report.spec.length.symbol())
-}
-
 /// Formats an upper bound as `at most 0.0123 mm`, or `less than 0.001 mm` if the value is below
 /// the last printed digit.
 fn upper_bound(report: &Report, value: f64) -> String {
-    let smallest = 10f64.powi(-(decimals(report) as i32));
+    let factor = unit::display_unit(report, Measurand::Position).0;
+    let smallest = 10f64.powi(-(decimals(report) as i32)) / factor;
     match value < smallest / 2.0 {
-        true => format!("less than {}", show(report, smallest)),
-        false => format!("at most {}", show(report, value)),
+        true => format!("less than {}", position(report, smallest)),
+        false => format!("at most {}", position(report, value)),
     }
 }
 
@@ -98,8 +95,8 @@ fn allowance(report: &Report, measurand: Measurand) -> Option<String> {
 fn ellipsoid(report: &Report) -> Option<String> {
     let ellipsoid = &report.budget.combined.ellipsoid;
     ellipsoid.configuration?;
-    let [a, b, c] = ellipsoid.semi_axes.map(|value| number::trimmed(value, decimals(report)));
-    let unit = report.spec.length.symbol();
+    let (factor, unit) = unit::display_unit(report, Measurand::Position);
+    let [a, b, c] = ellipsoid.semi_axes.map(|value| number::trimmed(factor * value, decimals(report)));
     let lie = "Random errors, if normal, lie with 95 % probability";
     Some(match ellipsoid.rank() {
         1 => format!("{lie} within ± {a} {unit} on a line, at the configuration where it is longest."),
@@ -119,14 +116,14 @@ fn published_residual(report: &Report) -> Option<String> {
     let (residual, random, total) = (*residual, *random, *total);
     Some(format!(
         "After compensation: {} repeatable residual + {} random = {}{}; {} prints {} + {} = {} ({}).",
-        show(report, residual),
-        show(report, random),
-        show(report, total),
+        position(report, residual),
+        position(report, random),
+        position(report, total),
         share_of_tolerance(report, total),
         report.publisher(),
         short(published.residual),
         short(published.random),
-        show(report, published.total),
+        position(report, published.total),
         published.reference,
     ))
 }
@@ -136,8 +133,8 @@ fn residual(report: &Report, compensation: &RemainingErrors) -> String {
         "With the compensation of the study, at most {} of the repeatable errors remain, and {} with \
          the random errors{} (residuals as root sum of squares, errors that are not compensated \
          with their signs).",
-        show(report, compensation.residual),
-        show(report, compensation.total),
+        position(report, compensation.residual),
+        position(report, compensation.total),
         share_of_tolerance(report, compensation.total),
     )
 }
@@ -180,12 +177,12 @@ fn certified_norms(report: &Report) -> Option<String> {
         return Some(format!("Certified: nothing; {NOT_CERTIFIED}."));
     }
     let norms = report.certified.as_ref()?;
-    let most = number::rounded_up(norms.all_sources()?.certified?, decimals(report));
+    let (factor, unit) = unit::display_unit(report, Measurand::Position);
+    let most = number::rounded_up(factor * norms.all_sources()?.certified?, decimals(report));
     let domain = match norms.contains_more {
         true => "the enclosing joint box, which is larger than the workspace,",
         false => "the whole box of the workspace",
     };
-    let unit = report.spec.length.symbol();
     Some(format!(
         "Certified, to first order: over {domain} the worst case over all signs is at most {most} {unit}."
     ))

@@ -17,7 +17,7 @@ pub(in crate::views) use verdict::by_criterion;
 use verdict::{verdict_line, verdict_sentences};
 
 use crate::document::{Card, Document, Figure, Section, Verdict};
-use crate::unit::decimals;
+use crate::unit::{self, decimals};
 use crate::views::shared::changed;
 
 /// Number of unreachable configurations that are listed.
@@ -80,14 +80,14 @@ fn units(figures: &[Figure]) -> Option<String> {
 
 /// Formats the most important figures.
 fn cards(report: &Report) -> Vec<Card> {
-    let unit = report.spec.length.symbol();
+    let (factor, unit) = unit::display_unit(report, Measurand::Position);
     let built = report.judged_error(Measurand::Position).value;
     let by = match report.study.criterion {
         Criterion::RootSumOfSquares => "root sum of squares",
         _ => "worst case",
     };
     let decimals = decimals(report).min(4);
-    let show = |value| format!("{} {unit}", trimmed(value, decimals));
+    let show = |value| format!("{} {unit}", trimmed(factor * value, decimals));
     let of = |value| {
         report.study.tolerance.map(|tolerance| format!("{} of the tolerance", percent(value, tolerance)))
     };

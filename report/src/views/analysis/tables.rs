@@ -6,7 +6,7 @@
 
 use abbe::analysis::{Extreme, Figures, Measurand, MonteCarlo};
 use abbe_study::analyze::{Agreement, Ledger, LedgerEntry, Report, SourceReport};
-use abbe_study::number::{self, fixed, percent, short};
+use abbe_study::number::{self, fixed, percent, short, steady};
 use abbe_study::study_file::{CombinedFigure, Metric, Subject};
 
 use crate::document::{Section, Table};
@@ -30,7 +30,7 @@ pub(super) fn sources(report: &Report) -> Table {
         let about = about.into_iter().chain(std::iter::repeat(String::new()));
         rows.extend(about.zip(of).map(|(about, line)| [vec![about], line].concat()));
     }
-    Table::listing(unit(report), &[vec!["source"], columns(report, None)].concat(), rows)
+    Table::listing(LARGEST, &[vec!["source"], columns(report, None)].concat(), rows)
 }
 
 /// Tabulates all sources together.
@@ -54,12 +54,10 @@ pub(super) fn combined(report: &Report) -> Table {
         let [x, y, z] = axes.map(Some);
         rows.extend(lines(report, name, [x, y, z, Some(norm)], None, tolerance));
     }
-    Table::listing(unit(report), &columns(report, tolerance), rows)
+    Table::listing(LARGEST, &columns(report, tolerance), rows)
 }
 
-fn unit(report: &Report) -> String {
-    format!("Largest errors over the workspace ({})", report.spec.length.symbol())
-}
+const LARGEST: &str = "Largest errors over the workspace (mm)";
 
 /// Returns the columns of metric, axes, norm, share of the tolerance and agreement; the last two if
 /// there are any.
@@ -78,7 +76,10 @@ fn lines(
     tolerance: Option<f64>,
 ) -> Vec<Vec<String>> {
     let published = subject.and_then(|subject| report.published(subject));
-    let show = |figure: Option<f64>| figure.map_or_else(String::new, |value| fixed(value, decimals(report)));
+    let factor = unit::display_unit(report, Measurand::Position).0;
+    let show = |figure: Option<f64>| {
+        figure.map_or_else(String::new, |value| unit::fixed(report, Measurand::Position, value))
+    };
     let of = tolerance.map(|tolerance| figures[3].map_or_else(String::new, |norm| percent(norm, tolerance)));
     let none = (!report.study.published.is_empty()).then(String::new);
     let mut lines = vec![
@@ -86,7 +87,9 @@ fn lines(
     ];
     if let Some(published) = published {
         let publisher = format!("  {}", report.publisher());
-        let figures = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
+        let figures = published
+            .figures
+            .map(|figure| figure.map_or("–".to_owned(), |figure| short(steady(factor * figure))));
         let skipped = tolerance.map(|_| String::new());
         let agreement = agreement_text(published.agreement, report);
         lines.push(
@@ -100,6 +103,8 @@ fn lines(
 pub(super) fn monte_carlo(report: &Report) -> Section {
     let section = Section::full("Monte Carlo on the exact chain");
     let Some(drawn) = &report.monte_carlo else { return section };
+    let (factor, unit) = unit::display_unit(report, Measurand::Position);
+    let fixed = |value: f64, decimals| fixed(factor * value, decimals);
     let decimals = decimals(report);
     let norms = |(place, found): (&str, &MonteCarlo)| {
         let [a, b, c] = found.quantiles.map(|quantile| fixed(quantile.value, decimals));
@@ -123,7 +128,6 @@ pub(super) fn monte_carlo(report: &Report) -> Section {
         let first_order = |i: usize| found.first_order[i][i].sqrt();
         [row(place, &sigma, 0), row("  standard error", &error, 1), row("  first order", &first_order, 0)]
     };
-    let unit = report.spec.length.symbol();
     let columns = ["at", ">50 %", ">95 %", ">99 %", ">largest", ">in ellipsoid"];
     let norms = Table::new(format!("Quantiles of the norm of the error ({unit})"), columns)
         .rows(drawn.results().into_iter().flat_map(norms));
@@ -165,7 +169,7 @@ pub(super) fn ledger(report: &Report) -> Table {
     let Ledger { sources, sums } = &report.ledger;
     for LedgerEntry { name, max, rms, share, configuration, .. } in sources.iter().chain(sums) {
         let at = report.label_at(configuration.filter(|_| *max > 0.0));
-        let show = |value| fixed(value, decimals(report));
+        let show = |value| unit::fixed(report, Measurand::Position, value);
         let mut cells = vec![
             name.clone(),
             show(*max),
@@ -178,10 +182,7 @@ pub(super) fn ledger(report: &Report) -> Table {
         }
         rows.push(cells);
     }
-    let caption = format!(
-        "Norms of the errors of the tool point ({}): the largest, the root mean square, and the share of the judged error",
-        report.spec.length.symbol()
-    );
+    let caption = "Norms of the errors of the tool point (mm): the largest, the root mean square, and the share of the judged error";
     Table::listing(caption, &header, rows)
 }
 

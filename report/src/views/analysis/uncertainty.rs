@@ -150,7 +150,7 @@ fn value(report: &Report, one: &SourceUncertainty) -> String {
     let value = one.value.unwrap_or(1.0);
     match &one.quantity {
         Quantity::Multiple => "1".to_owned(),
-        Quantity::Length => format!("{} {}", number::digits(value, 3), report.spec.length.symbol()),
+        Quantity::Length => format!("{} mm", number::digits(1e3 * report.spec.length.in_metres() * value, 3)),
         Quantity::Angle => format!("{} mrad", number::digits(1e3 * value, 3)),
         Quantity::Parameter(unit) => format!("{} {unit}", number::digits(value, 3)).trim_end().to_owned(),
     }
@@ -160,7 +160,7 @@ fn sensitivity(report: &Report, measurand: Measurand, one: &SourceUncertainty) -
     let (factor, result) = unit::display_unit(report, measurand);
     let (per, unit) = match &one.quantity {
         Quantity::Multiple => (1.0, None),
-        Quantity::Length => (1.0, Some(report.spec.length.symbol())),
+        Quantity::Length => (1e-3 / report.spec.length.in_metres(), Some("mm")),
         Quantity::Angle => (1e-3, Some("mrad")),
         Quantity::Parameter(unit) => (1.0, Some(unit.as_str()).filter(|unit| !unit.is_empty())),
     };
