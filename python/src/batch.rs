@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use abbe::lanes::{Batches, InstructionSet, Tiles};
+use abbe::lanes::{Batches, InstructionSet, Tiles, one_by_one};
 use abbe::{Error, Function, Manipulator, Quantity, checks};
 use abbe_interpreter::Interpreter;
 
@@ -52,13 +52,31 @@ impl Batch<'_> {
     pub(crate) fn one(&self, array: &mut [f64]) -> Result<(), RejectedConfiguration> {
         let arguments: Vec<&[f64]> = self.arguments.iter().map(|argument| argument.values).collect();
         let refused = |error| RejectedConfiguration { index: None, error };
-        let values = self.interpreter.run(self.function, &arguments).map_err(refused)?;
+        let values = self.run(&arguments).map_err(refused)?;
         self.layout.fill(array, &mut Vec::new(), |array| {
             for (place, row) in array.iter_mut().zip(&self.layout.rows) {
                 *place = values[*row];
             }
         });
         Ok(())
+    }
+
+    /// Returns true for the pose with given errors of a machine without loops, which is the product
+    /// of its transforms and errors.
+    fn is_product(&self) -> bool {
+        self.function == Function::DisplacedPose && !self.interpreter.description().has_loops()
+    }
+
+    /// Evaluates the function with one set of arguments.
+    fn run(&self, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
+        match *arguments {
+            [q, s, errors] if self.is_product() => {
+                checks::finite(Quantity::Errors, errors)?;
+                let pose = self.interpreter.displaced_pose(q, s, errors.as_chunks().0)?;
+                Ok(pose.0.concat())
+            }
+            _ => self.interpreter.run(self.function, arguments),
+        }
     }
 
     /// Evaluates a range of the configurations in lanes; `array` is for that range.
@@ -82,7 +100,10 @@ impl Batch<'_> {
             found.resize(size);
             let array = &mut array[length * (first - range.start)..][..length * size];
             self.put(&rows, first, &mut given);
-            let done = self.interpreter.batch(self.function, &given, &mut found);
+            let done = match self.is_product() {
+                true => one_by_one(self.interpreter, self.function, &given, &mut found),
+                false => self.interpreter.batch(self.function, &given, &mut found),
+            };
             done.map_err(|error| RejectedConfiguration { index: Some(first), error })?;
             self.layout.fill(array, &mut staged, |array| found.copy_each(&self.layout.rows, 0, array));
             let margins =
@@ -140,10 +161,7 @@ impl Batch<'_> {
     fn refused(&self, first: usize, size: usize) -> RejectedConfiguration {
         let alone = |index: usize| {
             let arguments = (0..self.arguments.len()).map(|argument| self.values(argument, index, 1));
-            self.interpreter
-                .run(self.function, &arguments.collect::<Vec<_>>())
-                .err()
-                .map(|error| (index, error))
+            self.run(&arguments.collect::<Vec<_>>()).err().map(|error| (index, error))
         };
         let (index, error) = (first..first + size)
             .find_map(alone)

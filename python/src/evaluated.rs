@@ -91,11 +91,10 @@ methods! {
     /// length unit and rad.
     displacement(errors: Numbers) = Displacement;
 
-    /// (…, 4, 4): exact pose of the tool in F_0 with given errors ε of the frames, all loops
-    /// closed.
+    /// (…, 4, 4): exact pose of the tool in F_0 with given errors ε of the frames: by the chain
+    /// A_1 E_1 … A_n E_n T, with all loops closed.
     ///
-    /// `errors`: as for `displacement`. Rows, columns and units as for `pose`. A machine
-    /// without loops raises ValueError.
+    /// `errors`: as for `displacement`. Rows, columns and units as for `pose`.
     displaced_pose(errors: Numbers) = DisplacedPose;
 
     /// (…, 6, 6): covariance J_e diag(σ²) J_eᵀ of ΔX in F_0 for independent errors.

@@ -54,7 +54,8 @@ impl Machine {
     ) -> PyResult<Bound<'py, PyAny>> {
         let description = self.interpreter.description();
         let signature = function.signature();
-        if Function::OF_LOOPS.contains(&function) && !description.has_loops() {
+        let needs_loops = Function::OF_LOOPS.contains(&function) && function != Function::DisplacedPose;
+        if needs_loops && !description.has_loops() {
             let message = format!("this machine has no closed loops, so it has no `{}`", signature.name);
             return Err(PyValueError::new_err(message));
         }

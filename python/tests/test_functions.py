@@ -221,7 +221,7 @@ def test_loops_close():
     machine = abbe.load(text=LINKAGE)
     q = samples(machine, 50)
     p = machine.passive(q)
-    assert p.shape == (50, 2)
+    assert p.shape == (50, 2) and len(machine.passive_variables) == 2 and abbe.load("ur5").passive_variables == ()
     assert np.allclose(p[7], machine.passive(q[7]), atol=1e-12)
     crank, knee, rocker = q[:, 0], q[:, 0] + p[:, 0], p[:, 1]
     meets = [40 * f(crank) + 120 * f(knee) - 80 * f(rocker) for f in (np.cos, np.sin)]
@@ -233,6 +233,72 @@ def test_loops_close():
     moved = (machine.displaced_pose(q, errors) - machine.pose(q))[:, :3, 3]
     assert np.allclose(moved, machine.displacement(q, errors)[:, :3], atol=1e-6)
     arm = abbe.load(text=ARM)
-    for call in (lambda: arm.passive(arm.home), lambda: arm.displaced_pose(arm.home, np.zeros((2, 6)))):
-        with pytest.raises(ValueError, match="no closed loops"):
-            call()
+    with pytest.raises(ValueError, match="no closed loops"):
+        arm.passive(arm.home)
+
+
+def displacements(errors):
+    """Return E_i of six errors each, as matrices: R_y(e_s) R_z(e_r) R_x(e_p)."""
+    (s, r, p), found = np.moveaxis(errors[..., 3:], -1, 0), np.zeros((*errors.shape[:-1], 4, 4))
+    zero, one = np.zeros_like(s), np.ones_like(s)
+    about = [
+        [[np.cos(s), zero, np.sin(s)], [zero, one, zero], [-np.sin(s), zero, np.cos(s)]],
+        [[np.cos(r), -np.sin(r), zero], [np.sin(r), np.cos(r), zero], [zero, zero, one]],
+        [[one, zero, zero], [zero, np.cos(p), -np.sin(p)], [zero, np.sin(p), np.cos(p)]],
+    ]
+    y, z, x = (np.moveaxis(np.array(rotation), (0, 1), (-2, -1)) for rotation in about)
+    found[..., :3, :3], found[..., :3, 3], found[..., 3, 3] = y @ z @ x, errors[..., :3], 1
+    return found
+
+
+BRANCHES = """
+[manipulator]
+name = "branches"
+length = "mm"
+[[frame]]
+name = "post"
+variable = { name = "q1", kind = "revolute" }
+transform = "Rz(q1) Tz(100)"
+[[frame]]
+name = "lamp"
+transform = "Tx(50)"
+[[frame]]
+name = "arm"
+parent = "post"
+variable = { name = "q2", kind = "revolute" }
+transform = "Rx(q2) Ty(200)"
+[tool]
+frame = "arm"
+transform = "Tz(30)"
+"""
+
+
+@pytest.mark.parametrize("name", ["ur5", "pps", "wam", "branches"])
+def test_pose_with_errors_is_the_product_of_the_chain(name):
+    machine = abbe.load(text=BRANCHES) if name == "branches" else abbe.load(name)
+    random, n = np.random.default_rng(4), len(machine.frames)
+    q = np.array(machine.home) + random.uniform(-0.5, 0.5, (40, len(machine.variables)))
+    errors = random.normal(0, 0.1, (40, n, 6))
+    transforms, moved = machine.transforms(q), displacements(errors)
+    expected = np.broadcast_to(np.eye(4), (40, 4, 4))
+    for i in [i for i in range(n) if name != "branches" or machine.frames[i] != "lamp"]:
+        expected = expected @ transforms[:, i] @ moved[:, i]
+    expected = expected @ transforms[:, n]
+    found = machine.displaced_pose(q, errors)
+    assert np.abs(found - expected).max() < 1e-9 and np.array_equal(found, machine.displaced_pose(q, errors.reshape(40, -1)))
+    assert np.abs(machine.displaced_pose(q[3], errors[3]) - expected[3]).max() < 1e-9
+    assert np.abs(machine.displaced_pose(q, 0 * errors) - machine.pose(q)).max() < 1e-9
+    # One set of errors for all configurations, and many for one.
+    assert np.array_equal(machine.displaced_pose(q, errors[5])[5], found[5]) and machine.displaced_pose(q[5], errors).shape == (40, 4, 4)
+    errors[7, 0, 0] = np.nan
+    with pytest.raises(ValueError, match="configuration 7"):
+        machine.displaced_pose(q, errors)
+    with pytest.raises(ValueError, match="finite"):
+        machine.displaced_pose(q[7], errors[7])
+
+
+def test_pose_with_errors_is_the_real_pose():
+    bent = {"class": "repeatable", "e_x": 0.3, "e_s": "0.02 rad", "e_p": "0.1 rad * sin(q2)"}
+    machine = abbe.load("ur5").with_source(bent | {"name": "bent", "frame": "elbow"}).with_source(bent | {"name": "more", "frame": "wrist 2"})
+    q = np.random.default_rng(4).uniform(-2, 2, (40, 6))
+    assert np.abs(machine.displaced_pose(q, machine.generalized_errors(q)) - machine.real_pose(q)).max() < 1e-9
