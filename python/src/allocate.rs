@@ -6,7 +6,7 @@ use abbe_report::views;
 use abbe_study::allocate::Allocate;
 use pyo3::prelude::*;
 
-use crate::job::{self, GivenStudy, Tolerances, run};
+use crate::job::{self, GivenStudy, Tolerances, Whole, run};
 use crate::{Machine, Report};
 
 #[pymethods]
@@ -37,7 +37,7 @@ impl Machine {
         study_text: Option<&str>,
         tolerance: Option<Tolerances>,
         loosen: bool,
-        threads: Option<usize>,
+        threads: Option<Whole>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Report>> {
         let (study, study_text) = GivenStudy::or_text(study, study_text);

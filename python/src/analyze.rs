@@ -13,7 +13,7 @@ use numpy::PyUntypedArrayMethods;
 use pyo3::{exceptions::PyValueError, prelude::*};
 
 use crate::arrays::{numbers, tuple};
-use crate::job::{self, GivenStudy, Tolerances, run, within};
+use crate::job::{self, GivenStudy, SEEDS, Tolerances, Whole, run, within};
 use crate::machine::Machine;
 use crate::part::analysis;
 
@@ -99,24 +99,26 @@ impl Machine {
         study_text: Option<&str>,
         q: Option<&Bound<'py, PyAny>>,
         tolerance: Option<Tolerances>,
-        monte_carlo: usize,
-        seed: Option<u64>,
+        monte_carlo: Whole,
+        seed: Option<Whole>,
         figures: bool,
-        shard: Option<(u32, u32)>,
-        threads: Option<usize>,
+        shard: Option<(Whole, Whole)>,
+        threads: Option<Whole>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (study, study_text) = GivenStudy::or_text(study, study_text);
         let q = q.map(|q| self.configurations(q)).transpose()?;
         let tolerances = Tolerances::texts(tolerance);
-        let monte_carlo = Some(monte_carlo).filter(|draws| *draws > 0);
+        let monte_carlo = Some(monte_carlo).filter(|draws| *draws != 0);
         let monte_carlo = monte_carlo.map(|draws| within("monte_carlo", draws, DRAWS)).transpose()?;
+        let seed = seed.map(|seed| within("seed", seed, SEEDS)).transpose()?;
         if let Some((number, of)) = shard {
             if q.is_some() {
                 return Err(PyValueError::new_err(
                     "`shard` divides a workspace, and `q` is none: give one of them",
                 ));
             }
+            let [number, of] = [number, of].map(|one| u32::try_from(one).unwrap_or_default());
             let shard = Shard::new(number, of)
                 .map_err(|message| PyValueError::new_err(format!("`shard`: {message}")))?;
             let (part, _) = run(py, threads, progress, |notes| {

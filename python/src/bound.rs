@@ -8,7 +8,7 @@ use abbe_study::bound::Bound as Job;
 use abbe_study::bound::options::{BOXES, Gap};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
-use crate::job::{self, GivenStudy, Tolerances, run, seconds, within};
+use crate::job::{self, GivenStudy, Tolerances, Whole, run, seconds, within};
 use crate::{Machine, Report};
 
 #[pymethods]
@@ -49,9 +49,9 @@ impl Machine {
         tolerance: Option<Tolerances>,
         gap: f64,
         least: bool,
-        boxes: usize,
+        boxes: Whole,
         time: Option<f64>,
-        threads: Option<usize>,
+        threads: Option<Whole>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Report>> {
         let gap =

@@ -10,7 +10,7 @@ use abbe_study::options::CONVENTIONS;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::job::{named, one_of, run, within};
+use crate::job::{SEEDS, Whole, named, one_of, run, within};
 use crate::{Machine, Report};
 
 /// Converts a URDF robot to a spec, from a `file` or its `text`.
@@ -131,11 +131,11 @@ impl Machine {
         urdf: Option<PathBuf>,
         base: Option<String>,
         tip: Option<String>,
-        nodes: Option<usize>,
-        samples: usize,
-        seed: u64,
+        nodes: Option<Whole>,
+        samples: Whole,
+        seed: Whole,
     ) -> PyResult<Py<Report>> {
-        let samples = within("samples", samples, SAMPLES_RANGE)?;
+        let (samples, seed) = (within("samples", samples, SAMPLES_RANGE)?, within("seed", seed, SEEDS)?);
         let nodes = nodes.map(|nodes| within("nodes", nodes, Exported::NODES_RANGE)).transpose()?;
         let given = [("urdf", urdf.is_some()), ("base", base.is_some()), ("tip", tip.is_some())];
         let format = Exported::choose(to, urdf, Ends { base, tip }, nodes).map_err(|unfit| {

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use abbe_study::explore::Explore;
 use pyo3::prelude::*;
 
-use crate::job::GivenStudy;
+use crate::job::{GivenStudy, Whole, within};
 use crate::{Machine, run};
 
 #[pymethods]
@@ -26,7 +26,7 @@ impl Machine {
         py: Python<'py>,
         study: Option<GivenStudy>,
         study_text: Option<&str>,
-        height: u32,
+        height: Whole,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (study, study_text) = GivenStudy::or_text(study, study_text);
         let (report, _) = run(py, None, None, |notes| {
@@ -43,7 +43,8 @@ pub(crate) fn page<'py>(
     py: Python<'py>,
     title: &str,
     html: &str,
-    height: u32,
+    height: Whole,
 ) -> PyResult<Bound<'py, PyAny>> {
+    let height = within("height", height, 1..=u32::MAX)?;
     py.import("abbe._fields")?.getattr("Page")?.call1((title, html, height))
 }

@@ -10,7 +10,7 @@ use abbe_report::views;
 use abbe_study::options::share;
 use pyo3::{exceptions::PyTypeError, prelude::*, types::PyString};
 
-use crate::job::{named, run, seconds, within};
+use crate::job::{Whole, named, run, seconds, within};
 use crate::machine::Machine;
 use crate::measured::{Measured, unusable};
 use crate::report::{Pages, Report};
@@ -47,11 +47,11 @@ impl Machine {
         terms: Option<&Bound<'_, PyAny>>,
         robust: Option<&str>,
         prior: Option<&Bound<'_, PyAny>>,
-        folds: usize,
+        folds: Whole,
         time: Option<f64>,
-        resample: Option<usize>,
+        resample: Option<Whole>,
         accept: Option<&str>,
-        threads: Option<usize>,
+        threads: Option<Whole>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Report>> {
         let terms = families(terms)?;
@@ -63,6 +63,7 @@ impl Machine {
             time: seconds("time", time)?,
             points: true,
         };
+        let resample = resample.map(|number| within("resample", number, 0..=usize::MAX)).transpose()?;
         let map = self.map(map)?;
         let measured = Measured::new("data", data, &map)?;
         let unseen = test.map(|test| Measured::new("test", test, &map)).transpose()?;

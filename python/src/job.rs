@@ -69,7 +69,7 @@ impl Notes for Listener<'_> {
 /// wait for. Returns the result and the notes; warnings are raised as Python warnings as well.
 pub(crate) fn run<R: Send>(
     py: Python<'_>,
-    threads: Option<usize>,
+    threads: Option<Whole>,
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&mut dyn Notes) -> Result<R> + Send,
 ) -> PyResult<(R, Vec<String>)> {
@@ -129,13 +129,22 @@ fn warn(py: Python<'_>, warning: &str) -> PyResult<()> {
     py.import("warnings")?.call_method1("warn", (warning, py.get_type::<PyUserWarning>(), 1)).map(drop)
 }
 
+/// Whole number of an argument, before its range is checked.
+pub(crate) type Whole = i128;
+
 /// Checks that a number is in the range of its option.
-pub(crate) fn within<T: PartialOrd + Display>(name: &str, value: T, range: RangeInclusive<T>) -> PyResult<T> {
-    if range.contains(&value) {
-        return Ok(value);
-    }
-    Err(PyValueError::new_err(format!("`{name}` is from {} to {}", range.start(), range.end())))
+pub(crate) fn within<T: PartialOrd + Display>(
+    name: &str,
+    value: impl TryInto<T>,
+    range: RangeInclusive<T>,
+) -> PyResult<T> {
+    let value = value.try_into().ok().filter(|value| range.contains(value));
+    let message = || format!("`{name}` is from {} to {}", range.start(), range.end());
+    value.ok_or_else(|| PyValueError::new_err(message()))
 }
+
+/// Range of seeds.
+pub(crate) const SEEDS: RangeInclusive<u64> = 0..=u64::MAX;
 
 /// Returns the value with this name.
 pub(crate) fn named<T: Copy + PartialEq>(option: &str, name: &str, choices: Choices<T>) -> PyResult<T> {

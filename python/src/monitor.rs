@@ -7,7 +7,7 @@ use abbe_metrology::monitor::{Checks, Monitor, Settings};
 use abbe_report::views;
 use pyo3::prelude::*;
 
-use crate::job::{length, run, within};
+use crate::job::{Whole, length, run, within};
 use crate::{Machine, Measured, Report};
 
 #[pymethods]
@@ -30,7 +30,7 @@ impl Machine {
         map: &Bound<'_, PyAny>,
         tolerance: Option<&Bound<'_, PyAny>>,
         since: Option<&str>,
-        false_alarm: usize,
+        false_alarm: Whole,
     ) -> PyResult<Py<Report>> {
         let false_alarm = within("false_alarm", false_alarm, FALSE_ALARM.range)?;
         let tolerance = tolerance.map(|value| length("tolerance", value, &self.machine.spec)).transpose()?;

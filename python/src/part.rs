@@ -10,6 +10,7 @@ use pyo3::exceptions::{PyFileExistsError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::job::Whole;
 use crate::{Report, guarded, run, spec_error};
 
 /// Part of an analysis, from `Machine.analyze(…, shard=(i, n))` or `Part.load`. It can be pickled;
@@ -97,7 +98,7 @@ pub(crate) fn restore(py: Python<'_>, bytes: &[u8]) -> PyResult<Part> {
 pub(crate) fn merge(
     py: Python<'_>,
     parts: &Bound<'_, PyAny>,
-    threads: Option<usize>,
+    threads: Option<Whole>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Py<Report>> {
     let mut named = Vec::new();

@@ -8,7 +8,7 @@ use abbe_metrology::plan::{Choice, Plan, Sets};
 use abbe_report::views;
 use pyo3::prelude::*;
 
-use crate::job::{self, GivenStudy, length, named, run, within};
+use crate::job::{self, GivenStudy, SEEDS, Whole, length, named, run, within};
 use crate::{Machine, Report};
 
 #[pymethods]
@@ -30,16 +30,17 @@ impl Machine {
         py: Python<'_>,
         map: &Bound<'_, PyAny>,
         sets: Option<PathBuf>,
-        count: Option<usize>,
+        count: Option<Whole>,
         criterion: &str,
-        candidates: usize,
+        candidates: Whole,
         model_error: Option<&Bound<'_, PyAny>>,
         study: Option<GivenStudy>,
-        seed: Option<u64>,
+        seed: Option<Whole>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Report>> {
         let criterion = named("criterion", criterion, CRITERIA)?;
         let count = count.map(|count| within("count", count, COUNT.range)).transpose()?;
+        let seed = seed.map(|seed| within("seed", seed, SEEDS)).transpose()?;
         let candidates = within("candidates", candidates, CANDIDATES.range)?;
         let model_error =
             model_error.map(|value| length("model_error", value, &self.machine.spec)).transpose()?;

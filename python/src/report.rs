@@ -18,6 +18,7 @@ use serde_json::Value;
 
 use crate::explore::page;
 use crate::failure::{guarded, spec_error};
+use crate::job::Whole;
 use crate::machine::{Machine, restore as restore_machine};
 use crate::table::Table;
 
@@ -191,7 +192,7 @@ impl Report {
     /// Returns the page of the report, which notebooks show in a frame of this height in pixels.
     /// Its head is a live page of the machine.
     #[pyo3(signature = (*, height=900))]
-    fn explore<'py>(&self, py: Python<'py>, height: u32) -> PyResult<Bound<'py, PyAny>> {
+    fn explore<'py>(&self, py: Python<'py>, height: Whole) -> PyResult<Bound<'py, PyAny>> {
         let pages = if self.pages.is_some() { self.pages(py)? } else { Vec::new() };
         match pages.into_iter().find(|(name, _)| name.ends_with(".html")) {
             Some((_, html)) => page(py, &format!("report of {}", self.kind), &html, height),

@@ -8,7 +8,7 @@ use abbe_metrology::simulate::options::{OUTLIERS, SAMPLES};
 use abbe_metrology::simulate::{Places, Simulate};
 use pyo3::prelude::*;
 
-use crate::job::{length, run, within};
+use crate::job::{SEEDS, Whole, length, run, within};
 use crate::{Machine, Measured, Report};
 
 #[pymethods]
@@ -29,13 +29,13 @@ impl Machine {
         py: Python<'_>,
         map: &Bound<'_, PyAny>,
         data: Option<&Bound<'_, PyAny>>,
-        samples: usize,
+        samples: Whole,
         noise: Option<&Bound<'_, PyAny>>,
         outliers: f64,
         random: bool,
-        seed: u64,
+        seed: Whole,
     ) -> PyResult<Py<Report>> {
-        let samples = within("samples", samples, SAMPLES.range)?;
+        let (samples, seed) = (within("samples", samples, SAMPLES.range)?, within("seed", seed, SEEDS)?);
         let outliers = within("outliers", outliers, OUTLIERS.range)?;
         let noise = noise.map(|value| length("noise", value, &self.machine.spec)).transpose()?;
         let map = self.map(map)?;

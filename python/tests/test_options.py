@@ -1,10 +1,13 @@
 """Options: the same defaults as the command, and error messages in terms of Python."""
 
+import ast
 import inspect
 import os
 import re
 import subprocess
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 import abbe
@@ -74,3 +77,32 @@ def test_what_is_not_allowed(call, says):
     with pytest.raises(ValueError) as caught:
         call()
     assert str(caught.value).startswith(says) and "--" not in str(caught.value)
+
+
+def whole_numbers():
+    """Yield the arguments of all methods and functions that are whole numbers, by the stubs."""
+    tree = ast.parse((Path(abbe.__file__).parent / "_abbe.pyi").read_text(encoding="utf-8"))
+    owners = [(None, tree.body)] + [(node.name, node.body) for node in tree.body if isinstance(node, ast.ClassDef)]
+    for owner, body in owners:
+        for node in body:
+            if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+                for argument in node.args.args + node.args.kwonlyargs:
+                    if argument.annotation and re.search(r"\bint\b", ast.unparse(argument.annotation)):
+                        yield owner, node.name, argument.arg
+
+
+REQUIRED = {"identify": ("a", "ur5"), "plan": ("ur5",), "simulate": ("ur5",), "monitor": (["a"], "ur5"), "export": ("dh",), "merge": ([],)}
+
+
+@pytest.mark.parametrize("wrong", [-1, -(2**70), 2**70, np.int64(-1)])
+def test_whole_numbers_out_of_range(wrong, tmp_path):
+    rows = tmp_path / "rows.csv"
+    rows.write_text(str(ur5.simulate("ur5", samples=20)), encoding="utf-8")
+    found = set(whole_numbers())
+    assert {("Machine", "analyze", name) for name in ("monte_carlo", "seed", "shard", "threads")} <= found and len(found) > 15
+    for owner, function, name in sorted(found, key=str):
+        method = getattr({"Machine": ur5, "Report": ur5.analyze(), None: abbe}[owner], function)
+        required = [str(rows) if one == "a" else one for one in REQUIRED.get(function, ())]
+        value = (wrong, wrong) if name == "shard" else wrong
+        with pytest.raises(ValueError, match=f"`{name}`.* (from [-0-9]+ to [0-9]+|between 1 and)"):
+            method(*required, **{name: value})
