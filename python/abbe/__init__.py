@@ -8,6 +8,7 @@
 Lengths are in the unit of the spec, angles in rad, everything in the base frame F_0. Matrices are row-major, as usual in NumPy.
 """
 
-from ._abbe import Commands, Machine, Part, Report, SpecError, Table, __version__, import_dh, import_urdf, load, merge, positioning, shipped
+from ._abbe import Machine, Part, Report, SpecError, Table, __version__, import_dh, import_urdf, load, merge, positioning, shipped
+from ._fields import Commands
 
 __all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "Table", "__version__", "import_dh", "import_urdf", "load", "merge", "positioning", "shipped"]

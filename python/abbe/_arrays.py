@@ -3,7 +3,9 @@
 import io
 from collections.abc import Mapping
 from csv import writer
-from numbers import Real
+from numbers import Integral, Real
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -48,6 +50,52 @@ def beside(joints, seen, names):
         raise ValueError(f"`seen` has shape {seen.shape}: give a row for each of `data`, ({len(joints)}, 3) or more, or ({len(joints)}, 4, 4)")
     seen = seen.reshape(len(seen), -1)
     return dict(zip(names, joints.T)) | {f"seen_{k + 1}": column for k, column in enumerate(seen.T)}
+
+
+def candidates(value, names, units, sets, count, defaults):
+    """Return the number of candidates of a plan, its file, the number to choose, and the folder of the file, if it is one of ours.
+
+    Rows of candidates, also of inputs and parameters in `units`, are written as a file, with all their digits.
+    """
+    number, most = defaults
+    if value is None or isinstance(value, Integral):
+        return (number if value is None else int(value)), sets, count, None
+    if sets is not None:
+        raise ValueError("give `sets` or rows of `candidates`, not both")
+    rows = numbers(value, "candidates", names)
+    if rows.ndim != 2 or rows.shape[1] != len(names) or not len(rows):
+        raise ValueError(f"`candidates` has shape {rows.shape}: give their number, or configurations (m, {len(names)}), one or more")
+    others = {name: np.broadcast_to(_real(value[name], name), len(rows)) for name in _columns(value) or () if name in units}
+    table = dict(zip(names, rows.T)) | {f"{name} ({units[name]})" if units[name] else name: column for name, column in others.items()}
+    if not all(np.isfinite(column).all() for column in table.values()):
+        raise ValueError("`candidates` has a number that is not finite")
+    folder = TemporaryDirectory()
+    Path(folder.name, "candidates.csv").write_text(csv(table, "candidates"), encoding="utf-8")
+    plan = '[plan]\ntitle = "candidates"\n[[set]]\nname = "candidates"\nworkspace.path = { file = "candidates.csv" }\n'
+    Path(folder.name, "candidates.toml").write_text(plan, encoding="utf-8")
+    return number, Path(folder.name, "candidates.toml"), most if count is None else count, folder
+
+
+def targets(value):
+    """Convert poses (…, 4, 4) or tool points (…, 3) to an array, and check them."""
+    array = numbers(value, "target", None)
+    if not np.isfinite(array).all():
+        raise ValueError("`target` has a number that is not finite")
+    if array.shape[-2:] != (4, 4):
+        if array.shape[-1:] != (3,):
+            raise ValueError(f"`target` has shape {array.shape}: give poses (…, 4, 4) or tool points (…, 3)")
+        return array
+    if (array[..., 3, :] != [0, 0, 0, 1]).any():
+        raise ValueError("the last row of `target` is not 0 0 0 1: a pose has the tool point in its last column; is it transposed?")
+    rotation = array[..., :3, :3]
+    if (np.abs(rotation.swapaxes(-1, -2) @ rotation - np.eye(3)) > 1e-6).any() or (np.linalg.det(rotation) < 0).any():
+        raise ValueError("`target` has no rotation matrix: its first three columns must be perpendicular unit vectors, right-handed")
+    return array
+
+
+def matrix(table):
+    """Return the columns of numbers of a table as an array."""
+    return np.stack([table[name] for name in table.columns[1:]], axis=-1) if table.columns[1:] else np.empty((0, 0))
 
 
 def csv(value, what):

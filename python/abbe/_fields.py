@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
 import html as markup
 import json
 from collections.abc import ItemsView, Iterator, KeysView, Mapping
 from os import PathLike
+from pathlib import Path
 from types import MethodType
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, get_args, get_origin, get_type_hints
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 T = TypeVar("T")
 
@@ -160,3 +166,39 @@ class Page:
 
     def __repr__(self) -> str:
         return f"<abbe page: {self.title}>"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Commands:
+    """Corrected joint commands of one or many configurations."""
+
+    q: NDArray[np.float64]
+    """(…, nq): corrected commands, within the joint limits."""
+
+    left: NDArray[np.float64]
+    """(…, 6): ΔX that remains in F_0, in the length unit and rad."""
+
+    reason: str | None | list[str | None]
+    """Reason as text, or None if the configuration is compensated to the tolerance; a list for many configurations."""
+
+    def __repr__(self) -> str:
+        reasons = self.reason if isinstance(self.reason, list) else [self.reason]
+        missed = sum(reason is not None for reason in reasons)
+        return f"<abbe commands: q of shape {self.q.shape}, {missed or 'none'} not compensated to the tolerance>"
+
+
+def write(pages: list[tuple[str, str]], folder: str | PathLike[str], overwrite: bool) -> list[str]:
+    """Write files into a folder, which is made if necessary. Return their names."""
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    paths = [Path(folder, name) for name, _ in pages]
+    if there := [path for path in paths if path.exists() and not overwrite]:
+        raise FileExistsError(f"{there[0]} is there already")
+    for path, (_, text) in zip(paths, pages, strict=True):
+        with open(path, "w" if overwrite else "x", encoding="utf-8", newline="") as file:
+            file.write(text)
+    return [name for name, _ in pages]
+
+
+def names(own: Mapping[str, Any], fields: Fields) -> list[str]:
+    """Return the public names of a report."""
+    return [name for name in own if not name.startswith("_")] + list(fields)

@@ -1,6 +1,5 @@
 //! Inverse kinematics, and commands that compensate the errors of the machine.
 
-use abbe::analysis::sampling::vectors::{cross, dot};
 use abbe::analysis::{InverseKinematics, Target, inverse};
 use abbe::{Pose, identify::Failure};
 use abbe_metrology::compensate;
@@ -9,43 +8,12 @@ use abbe_study::mistake;
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString, PyTuple};
+use pyo3::types::{PyDict, PyString};
 use rayon::prelude::*;
 
 use crate::arrays::{empty, numbers, output_array, tuple};
 use crate::job::{length, run};
 use crate::{Machine, guarded};
-
-/// Corrected joint commands of one or many configurations.
-#[pyclass(frozen, get_all, module = "abbe")]
-pub(crate) struct Commands {
-    /// (…, nq): corrected commands, within the joint limits.
-    q: Py<PyAny>,
-    /// (…, 6): ΔX that remains in F_0, in the length unit and rad.
-    left: Py<PyAny>,
-    /// Reason as text, or None if the configuration is compensated to the tolerance; a
-    /// list for many configurations.
-    reason: Py<PyAny>,
-}
-
-#[pymethods]
-impl Commands {
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let parts = PyTuple::new(py, [&self.q, &self.left, &self.reason])?;
-        Ok((py.import("abbe._abbe")?.getattr("_commands")?, parts))
-    }
-
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        Ok(format!("<abbe commands: q of shape {}>", self.q.bind(py).getattr("shape")?))
-    }
-}
-
-/// Recreates pickled commands.
-#[pyfunction]
-#[pyo3(name = "_commands")]
-pub(crate) fn restore(q: Py<PyAny>, left: Py<PyAny>, reason: Py<PyAny>) -> Commands {
-    Commands { q, left, reason }
-}
 
 /// Returns the solutions of each target; of several, none where there are none, with a warning.
 fn solved<E: std::fmt::Display + Send>(
@@ -71,26 +39,18 @@ fn solved<E: std::fmt::Display + Send>(
 
 /// Returns the leading dimensions and the targets that an array describes: poses or tool points.
 fn targets_of(target: &Bound<'_, PyAny>) -> PyResult<(Vec<usize>, Vec<Target>)> {
-    let array = numbers(target, "target", None)?;
+    let checked = target.py().import("abbe._arrays")?.call_method1("targets", (target,))?;
+    let array = numbers(&checked, "target", None)?;
     let values = array.as_slice()?;
-    if !values.iter().all(|value| value.is_finite()) {
-        return Err(PyValueError::new_err("`target` has a number that is not finite"));
-    }
-    match *array.shape() {
-        [ref lead @ .., 4, 4] => {
-            let poses = values.chunks_exact(16).map(|one| pose(one).map(Target::Pose));
-            Ok((lead.to_vec(), poses.collect::<PyResult<_>>()?))
+    Ok(match array.shape() {
+        [lead @ .., 4, 4] => {
+            (lead.to_vec(), values.chunks_exact(16).map(|one| Target::Pose(pose(one))).collect())
         }
-        [ref lead @ .., 3] => {
-            let point = |one: &[f64]| Target::Point([one[0], one[1], one[2]]);
-            Ok((lead.to_vec(), values.chunks_exact(3).map(point).collect()))
-        }
-        ref shape => {
-            let message =
-                format!("`target` has shape {}: give poses (…, 4, 4) or tool points (…, 3)", tuple(shape));
-            Err(PyValueError::new_err(message))
-        }
-    }
+        shape => (
+            shape[..shape.len() - 1].to_vec(),
+            values.chunks_exact(3).map(|one| Target::Point([one[0], one[1], one[2]])).collect(),
+        ),
+    })
 }
 
 impl Machine {
@@ -238,7 +198,7 @@ impl Machine {
         weight: Option<&Bound<'py, PyAny>>,
         progress: Option<&Bound<'py, PyAny>>,
         inputs: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Commands> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let description = abbe::Manipulator::description(&self.interpreter);
         let usual = PyString::new(py, compensate::options::TOLERANCE).into_any();
         let tolerance = length("tolerance", tolerance.unwrap_or(&usual), &self.machine.spec)?;
@@ -273,33 +233,15 @@ impl Machine {
             [reason] if lead.is_empty() => reason.into_pyobject(py)?.into_any().unbind(),
             reasons => reasons.into_pyobject(py)?.into_any().unbind(),
         };
-        Ok(Commands {
-            q: filled(py, &[&lead[..], &[nq]].concat(), &corrected)?.unbind(),
-            left: filled(py, &[&lead[..], &[6]].concat(), &left)?.unbind(),
-            reason,
-        })
+        let q = filled(py, &[&lead[..], &[nq]].concat(), &corrected)?;
+        let left = filled(py, &[&lead[..], &[6]].concat(), &left)?;
+        py.import("abbe._fields")?.getattr("Commands")?.call1((q, left, reason))
     }
 }
 
-/// Largest difference of a rotation matrix from an orthogonal one.
-const ORTHOGONAL: f64 = 1e-6;
-
 /// Converts a homogeneous matrix, row by row.
-fn pose(values: &[f64]) -> PyResult<Pose> {
-    let pose = Pose(std::array::from_fn(|j| std::array::from_fn(|i| values[4 * i + j])));
-    let [x, y, z, _] = pose.0;
-    let products = [dot(x, x) - 1.0, dot(y, y) - 1.0, dot(z, z) - 1.0, dot(x, y), dot(y, z), dot(z, x)];
-    if values[12..] != [0.0, 0.0, 0.0, 1.0] {
-        return Err(PyValueError::new_err(
-            "the last row of `target` is not 0 0 0 1: a pose has the tool point in its last column; is it transposed?",
-        ));
-    }
-    if products.iter().any(|product| product.abs() > ORTHOGONAL) || dot(cross(x, y), z) < 0.0 {
-        return Err(PyValueError::new_err(
-            "`target` has no rotation matrix: its first three columns must be perpendicular unit vectors, right-handed",
-        ));
-    }
-    Ok(pose)
+fn pose(values: &[f64]) -> Pose {
+    Pose(std::array::from_fn(|j| std::array::from_fn(|i| values[4 * i + j])))
 }
 
 fn filled<'py>(py: Python<'py>, shape: &[usize], values: &[f64]) -> PyResult<Bound<'py, PyAny>> {

@@ -49,8 +49,6 @@ mod _abbe {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use super::commands::{Commands, restore as restore_commands};
-    #[pymodule_export]
     use super::exchange::{import_dh, import_urdf};
     #[pymodule_export]
     use super::failure::SpecError;
