@@ -1,9 +1,10 @@
 //! Errors of every source over a workspace.
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
-use std::borrow::Cow;
-use std::path::Path;
+use std::{borrow::Cow, iter, path::Path};
 
+use abbe::analysis::Row;
+use abbe_metrology::data::Table;
 use abbe_study::analyze::Analyze;
 use abbe_study::analyze::options::DRAWS;
 use abbe_study::analyze::parts::{AnalysisRequest, FileText, Part, Shard};
@@ -16,6 +17,7 @@ use crate::arrays::{numbers, tuple};
 use crate::job::{self, GivenStudy, SEEDS, Tolerances, Whole, run, within};
 use crate::machine::Machine;
 use crate::part::analysis;
+use crate::report::Make;
 
 impl Machine {
     /// Returns the analysis of the machine with its changes and default options.
@@ -69,6 +71,33 @@ impl Machine {
     }
 }
 
+/// Analyzes again, and returns a row for each configuration: its joints and what else varies, the
+/// ideal tool point, and its displacements by each source, by all repeatable and all random ones.
+fn rows(job: &Analyze) -> Result<Table> {
+    let spec = &job.machine().spec;
+    let (parameters, inputs) = (job.varying(), job.moving_inputs());
+    let joints = spec.variables.iter().map(|one| &one.name);
+    let varying = parameters.iter().map(|i| &spec.parameters[*i].name);
+    let varying = varying.chain(inputs.iter().map(|i| &spec.inputs[*i].name));
+    let mut heading = vec!["configuration".to_owned()];
+    heading.extend(joints.chain(varying).cloned());
+    let sources = spec.enabled_sources().map(|source| source.name.as_str());
+    for what in ["ideal"].into_iter().chain(sources).chain(["repeatable", "random"]) {
+        heading.extend(["x", "y", "z"].map(|axis| format!("{what} {axis}")));
+    }
+    let mut rows = Vec::new();
+    let mut keep = |row: &Row| {
+        let at = row.configuration;
+        let varying = parameters.iter().map(|i| at.s[*i]).chain(inputs.iter().map(|i| at.u[*i]));
+        let moved = row.sources.iter().chain([&row.repeatable, &row.random]).flat_map(|moved| &moved[..3]);
+        let first = iter::once(row.index as f64).chain(at.q.iter().copied());
+        let numbers = first.chain(varying).chain(row.pose.position()).chain(moved.copied());
+        rows.push(numbers.map(Some).collect());
+    };
+    job.run_with_rows(Some(&mut keep), &mut ())?;
+    Ok(Table { heading, rows, ..Table::default() })
+}
+
 #[pymethods]
 impl Machine {
     /// Computes the errors of every source, and of all sources together, over a workspace, and the
@@ -82,7 +111,9 @@ impl Machine {
     /// the draws and of the study's random samples. `figures`: collect data for `.report(folder)`
     /// and `.figure(name)`.
     ///
-    /// Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
+    /// `.table("configurations")` has the configurations, the ideal tool point, and its
+    /// displacements by each source. Lengths are in the unit of the spec, angles in rad. Fields:
+    /// `abbe.reports.AnalyzeReport`.
     ///
     /// >>> import abbe
     /// >>> report = abbe.load("pps").analyze()
@@ -142,11 +173,13 @@ impl Machine {
             job.figures = figures;
             Ok((job.run(notes)?, job, has_q))
         })?;
+        let again = job.clone();
         // A command names files, or shipped machines and studies.
         let is_named = job.machine().file.is_some() || job.machine().shipped.is_some();
         let study = study.map(|study| study.to_string_lossy().into_owned());
         let live = Explore { analysis: Cow::Owned(job), study, residuals: None };
         let live = Some(live).filter(|_| is_named && study_text.is_none() && !has_q);
-        Ok(analysis(py, report, live, notes)?.into_bound(py).into_any())
+        let rows: Make<Table> = Box::new(move || rows(&again));
+        Ok(analysis(py, report, live, Some(rows), notes)?.into_bound(py).into_any())
     }
 }

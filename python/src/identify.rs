@@ -13,7 +13,7 @@ use pyo3::{exceptions::PyTypeError, prelude::*, types::PyString};
 use crate::job::{Whole, named, run, seconds, within};
 use crate::machine::Machine;
 use crate::measured::{Measured, unusable};
-use crate::report::{Pages, Report};
+use crate::report::Report;
 
 #[pymethods]
 impl Machine {
@@ -33,8 +33,9 @@ impl Machine {
     /// many). `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
     ///
     /// `.table("rows")` has the residuals of every point in the frame of the instrument, with only
-    /// base and tool fitted ("x before" …) and with the identified model ("x" …). `.report(folder)`
-    /// writes report.html, found.toml and found.map.toml; `.load()` returns the identified machine.
+    /// base and tool fitted ("x before" …) and with the identified model ("x" …). `.covariance` is
+    /// that of the identified errors. `.report(folder)` writes report.html, found.toml and
+    /// found.map.toml; `.load()` returns the identified machine, with the changes of this one.
     /// Fields: `abbe.reports.IdentifyReport`.
     #[pyo3(signature = (data, map, *, test=None, only=None, terms=None, robust=None, prior=None, folds=10, time=None, resample=None, accept=None, threads=None, progress=None))]
     fn identify(
@@ -54,7 +55,7 @@ impl Machine {
         threads: Option<Whole>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Report>> {
-        let terms = families(terms)?;
+        let (terms, spec_text) = (families(terms)?, self.spec_text(py)?);
         let settings = Settings {
             only_placement: only.map(|name| named("only", name, ONLY)).transpose()?.unwrap_or_default(),
             loss: robust.map(|name| named("robust", name, LOSSES)).transpose()?.unwrap_or_default(),
@@ -78,10 +79,6 @@ impl Machine {
             let report = job.run(notes)?;
             Ok((job, report))
         })?;
-        // An identified spec cannot be written if the machine has changes.
-        let nominal = self.machine.spec.hash == self.unchanged.spec.hash
-            && self.changes().is_ok_and(|changes| changes.is_empty());
-        let spec_text = self.text();
         let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
         let document = move |report: &_| views::identification(&spec, &map, report);
         let found = Report::from_document("identify", &report, notes, document)?.with_spec("found.toml");
@@ -92,13 +89,10 @@ impl Machine {
             let files = [("measurements", measured.source())].into_iter().chain(test);
             let document = views::identification(&machine.spec, map, &report);
             let page = document.measured_page(machine, Some(map), files, report.residuals(), &mut ())?;
-            let mut pages: Pages = vec![("report.html".into(), page)];
-            if nominal {
-                let spec = report.found.identified_spec(&machine.spec, &spec_text.clone()?, "found.toml")?;
-                let map = report.found.identified_map(map, &machine.spec, "found.map.toml")?;
-                pages.extend([("found.toml".into(), spec.text), ("found.map.toml".into(), map)]);
-            }
-            Ok(pages)
+            let spec = report.found.identified_spec(&machine.spec, &spec_text, "found.toml")?;
+            let map = report.found.identified_map(map, &machine.spec, "found.map.toml")?;
+            let files = [("report.html", page), ("found.toml", spec.text), ("found.map.toml", map)];
+            Ok(files.map(|(name, text)| (name.into(), text)).to_vec())
         });
         found.create(py)
     }

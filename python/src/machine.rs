@@ -1,11 +1,14 @@
 //! The class `Machine`: a manipulator and its functions.
 
-use std::sync::OnceLock;
+use std::path::{Path, absolute};
+use std::{iter, sync::OnceLock};
 
 use abbe::{Function, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
-use abbe_spec::Spec;
+use abbe_metrology::data::Table;
+use abbe_spec::edit::{Edits, write::quoted};
+use abbe_spec::{Identified, Spec};
 use abbe_study::{Changes, Result, analyze::parts::Change, changed_text};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -96,16 +99,45 @@ impl Machine {
         self.text.clone().map_or_else(|| self.unchanged.text(), Ok)
     }
 
+    /// Returns the covariance of an identified machine, with the names of its rows.
+    pub(crate) fn covariances(&self) -> Table {
+        let spec = &self.machine.spec;
+        let name = |one: &Identified| match *one {
+            Identified::Error(frame, component) => format!("{}{}", component.name(), frame + 1),
+            Identified::Base(component) => format!("{}0", component.name()),
+            Identified::Magnitude(source) => spec.sources[source].name.clone(),
+            Identified::Joint(joint) => spec.variables[joint].name.clone(),
+        };
+        let labels: Vec<String> = spec.covariance.of.iter().map(name).collect();
+        let heading = iter::once("error".to_owned()).chain(labels.iter().cloned()).collect();
+        let rows = spec.covariance.rows.iter().map(|row| row.iter().copied().map(Some).collect()).collect();
+        Table { heading, rows, labels, ..Table::default() }
+    }
+
     pub(crate) fn layout(&self, function: Function) -> &Layout {
         self.layouts[function as usize].get_or_init(|| Layout::new(function, self.interpreter.description()))
     }
+}
+
+/// Returns the text of a spec in a folder with absolute paths of its tables, to be read anywhere.
+fn anywhere(text: &str, folder: &Path) -> String {
+    let edited = Edits::apply(text, |root, edits| {
+        for table in root.get("tables")?.as_table()?.items() {
+            let file = table.as_table().and_then(|table| table.get("file"));
+            if let Some((path, item)) = file.and_then(|item| Some((item.text()?.to_owned(), item))) {
+                edits.replace(item.span(), quoted(&absolute(folder.join(path)).ok()?.to_string_lossy()));
+            }
+        }
+        Some(())
+    });
+    edited.unwrap_or_else(|| text.to_owned())
 }
 
 /// Finds a shipped manipulator or reads a spec file; with `text`, parses the text.
 fn find_machine(origin: &str, text: Option<&str>) -> Result<abbe_study::Machine> {
     match text {
         None => abbe_study::Machine::find(origin),
-        Some(text) => Ok(abbe_study::Machine::of_spec(Spec::parse(origin, text)?, origin)),
+        Some(text) => Ok(abbe_study::Machine::of_spec(Spec::parse_in(Path::new(""), origin, text)?, origin)),
     }
 }
 
@@ -133,7 +165,11 @@ pub(crate) fn load(
             let path: String = py.import("os")?.call_method1("fspath", (spec,))?.extract()?;
             let read = || {
                 let machine = abbe_study::Machine::find(&path)?;
-                let text = if machine.shipped.is_some() { None } else { Some(machine.text()?) };
+                let folder = machine.file.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
+                let text = match machine.shipped {
+                    Some(_) => None,
+                    None => Some(anywhere(&machine.text()?, folder)),
+                };
                 Ok((machine, text))
             };
             let (machine, text) = py.detach(read).map_err(|mistakes| spec_error(py, &mistakes))?;
@@ -157,6 +193,7 @@ pub(crate) fn restore(
         let changes = serde_json::from_str(changes);
         let changes = changes.map_err(|error| PyValueError::new_err(error.to_string()))?;
         let machine = py.detach(|| find_machine(origin, text.as_deref()));
+        let text = text.map(|text| anywhere(&text, Path::new("")));
         Machine::new(py, machine.map_err(|mistakes| spec_error(py, &mistakes))?, text, changes, None)
     })
 }
@@ -184,7 +221,7 @@ impl Machine {
     /// >>> abbe.load(text=changed.text).parameters["x"]
     /// 250.0
     #[getter(text)]
-    fn spec_text(&self, py: Python<'_>) -> PyResult<String> {
+    pub(crate) fn spec_text(&self, py: Python<'_>) -> PyResult<String> {
         let text = guarded(|| py.detach(|| self.text()).map_err(|mistakes| spec_error(py, &mistakes)))?;
         if self.changes.is_empty() {
             return Ok(text);
@@ -245,6 +282,13 @@ impl Machine {
         self.variable_names.clone_ref(py)
     }
 
+    /// Names of the passive variables, which loops determine, in the order of `passive`.
+    #[getter]
+    fn passive_variables<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let names = self.interpreter.description().passive().map(|variable| &*variable.name);
+        PyTuple::new(py, names.collect::<Vec<&str>>())
+    }
+
     /// Lower and upper limit of each joint variable in the length unit or rad; infinite if the spec
     /// has none.
     #[getter]
@@ -278,7 +322,7 @@ impl Machine {
     /// >>> abbe.load("pps").units["x"]
     /// 'mm'
     #[getter]
-    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    pub(crate) fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let spec = &self.machine.spec;
         let parameters = spec.parameters.iter().map(|one| (&one.name, &one.unit));
         parameters.chain(spec.inputs.iter().map(|one| (&one.name, &one.unit))).into_py_dict(py)

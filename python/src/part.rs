@@ -4,6 +4,7 @@
 
 use std::{borrow::Cow, path::PathBuf, sync::Arc};
 
+use abbe_metrology::data::Table;
 use abbe_report::budget;
 use abbe_study::{analyze, analyze::parts, explore::Explore};
 use pyo3::exceptions::{PyFileExistsError, PyTypeError};
@@ -11,6 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::job::Whole;
+use crate::report::Make;
 use crate::{Report, guarded, run, spec_error};
 
 /// Part of an analysis, from `Machine.analyze(…, shard=(i, n))` or `Part.load`. It can be pickled;
@@ -120,7 +122,7 @@ pub(crate) fn merge(
             Explore { analysis: Cow::Owned(merge.job().clone()), study: merge.study(), residuals: None };
         Ok((merge.report(notes)?, live))
     })?;
-    analysis(py, report, Some(live), notes)
+    analysis(py, report, Some(live), None, notes)
 }
 
 /// Creates the report of an analysis, with its text, tables and pages. `live` is the job of the
@@ -129,11 +131,12 @@ pub(crate) fn analysis(
     py: Python<'_>,
     report: analyze::Report,
     live: Option<Explore<'static>>,
+    rows: Option<Make<Table>>,
     notes: Vec<String>,
 ) -> PyResult<Py<Report>> {
     let report = Arc::new(report);
     let drawn = Arc::clone(&report);
-    let found = Report::from_document("analyze", &report, notes, budget)?;
+    let found = Report::from_document("analyze", &report, notes, budget)?.with_made_rows(rows);
     let found = found.with_figures(move || abbe_report::figures(&drawn)).with_pages(move || {
         let live = live.as_ref().map(|live| live.run(&mut ())).transpose()?;
         let files = abbe_report::analysis(&report, live.as_ref());

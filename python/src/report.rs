@@ -1,9 +1,7 @@
 //! Report of a job as a Python object.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use abbe_metrology::data;
@@ -18,15 +16,18 @@ use serde_json::Value;
 
 use crate::explore::page;
 use crate::failure::{guarded, spec_error};
-use crate::job::Whole;
+use crate::job::{Whole, run};
 use crate::machine::{Machine, restore as restore_machine};
 use crate::table::Table;
+
+/// Largest number of configurations whose errors a pickled report keeps.
+const MOST_PICKLED: u64 = 100_000;
 
 /// Files of a report: names and texts.
 pub(crate) type Pages = Vec<(String, String)>;
 
 /// Function that builds a part of the report on demand.
-type Make<T> = Box<dyn Fn() -> Result<T> + Send + Sync>;
+pub(crate) type Make<T> = Box<dyn Fn() -> Result<T> + Send + Sync>;
 
 /// Figure: name, title, picture, and content as JSON.
 type Figure = (String, String, String, String);
@@ -49,7 +50,8 @@ pub(crate) struct Report {
     messages: Vec<String>,
     pages: Option<Make<Pages>>,
     figures: Option<Box<dyn Fn() -> Vec<Figure> + Send + Sync>>,
-    rows: Option<data::Table>,
+    /// Table that is not among the fields.
+    rows: Option<Make<data::Table>>,
     /// Name of the page that is a spec.
     spec: Option<String>,
     fields: PyOnceLock<Py<PyAny>>,
@@ -114,7 +116,22 @@ impl Report {
 
     /// Adds a table of rows, which are not among the fields.
     pub(crate) fn with_rows(self, rows: data::Table) -> Self {
-        Self { rows: Some(rows), ..self }
+        self.with_made_rows(Some(Box::new(move || Ok(rows.clone()))))
+    }
+
+    /// Adds a table of rows that are computed when they are asked for.
+    pub(crate) fn with_made_rows(self, rows: Option<Make<data::Table>>) -> Self {
+        Self { rows, ..self }
+    }
+
+    /// Returns the name of the rows.
+    fn rows_name(&self) -> &'static str {
+        if self.kind == "analyze" { "configurations" } else { "rows" }
+    }
+
+    /// Returns the rows, if the report has any.
+    fn rows(&self, py: Python<'_>) -> PyResult<Option<data::Table>> {
+        self.rows.as_ref().map(|make| Ok(run(py, None, None, |_| make())?.0)).transpose()
     }
 
     /// Returns the name and the rows of every field that is a table.
@@ -175,18 +192,7 @@ impl Report {
     /// Raises FileExistsError if a file exists, unless `overwrite` is true.
     #[pyo3(signature = (folder, *, overwrite=false))]
     fn report(&self, py: Python<'_>, folder: PathBuf, overwrite: bool) -> PyResult<Vec<String>> {
-        let pages = self.pages(py)?;
-        py.detach(|| {
-            fs::create_dir_all(&folder)?;
-            let exists =
-                pages.iter().map(|(name, _)| folder.join(name)).find(|path| !overwrite && path.exists());
-            if let Some(path) = exists {
-                let message = format!("{} is there already", path.display());
-                return Err(std::io::Error::new(std::io::ErrorKind::AlreadyExists, message));
-            }
-            pages.iter().try_for_each(|(name, text)| write(&folder.join(name), text, overwrite))
-        })?;
-        Ok(pages.into_iter().map(|(name, _)| name).collect())
+        py.import("abbe._fields")?.call_method1("write", (self.pages(py)?, folder, overwrite))?.extract()
     }
 
     /// Returns the page of the report, which notebooks show in a frame of this height in pixels.
@@ -232,12 +238,27 @@ impl Report {
         })
     }
 
-    /// Returns the names of the tables: fields that are lists of records, and `rows` if the report
-    /// has one row per measurement.
+    /// Returns the names of the tables: fields that are lists of records; `rows` if the report has
+    /// one row per measurement; `configurations`, the errors at each configuration of an analysis,
+    /// which are computed again when they are asked for; and the `covariance` of an identification.
     fn tables(&self) -> PyResult<Vec<String>> {
-        let rows = self.rows.iter().map(|_| "rows".to_owned());
+        let mut names: Vec<String> = self.rows.iter().map(|_| self.rows_name().to_owned()).collect();
         let lists = self.lists()?.into_iter().filter(|(_, rows)| !rows.is_empty());
-        Ok(rows.chain(lists.map(|(name, _)| name)).collect())
+        names.extend(lists.map(|(name, _)| name));
+        names.extend((self.kind == "identify").then(|| "covariance".to_owned()));
+        // Rows of measurements come first, configurations last.
+        names.rotate_left(usize::from(self.kind == "analyze" && self.rows.is_some()));
+        Ok(names)
+    }
+
+    /// (p, p): covariance of the identified errors of the machine, relative to base and target, in
+    /// the length unit and rad. The first column of `table("covariance")` has the names of its rows
+    /// and columns: those of `Machine.columns`, `e_x0` … of the base, and names of sources.
+    #[getter]
+    fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let table =
+            self.table(py, "covariance").map_err(|error| PyAttributeError::new_err(error.to_string()))?;
+        py.import("abbe._arrays")?.call_method1("matrix", (table,))
     }
 
     /// Returns one table, which any Arrow reader takes without a copy. An empty list is a table
@@ -247,9 +268,14 @@ impl Report {
     /// >>> ledger = abbe.load("pps").analyze().table("ledger.sources")
     /// >>> len(ledger), ledger.columns
     /// (7, ('name', 'max', 'rms', 'share_of_tolerance', 'share', 'factor', 'class', 'rank'))
-    fn table(&self, name: &str) -> PyResult<Table> {
-        if let Some(rows) = self.rows.as_ref().filter(|_| name == "rows") {
-            return Table::new(rows);
+    fn table(&self, py: Python<'_>, name: &str) -> PyResult<Table> {
+        if name == self.rows_name()
+            && let Some(rows) = self.rows(py)?
+        {
+            return Table::new(&rows);
+        }
+        if name == "covariance" && self.kind == "identify" {
+            return Table::new(&self.load(py)?.covariances());
         }
         match self.lists()?.into_iter().find(|(known, _)| known == name) {
             Some((_, rows)) => Table::from_records(&rows),
@@ -271,22 +297,17 @@ impl Report {
     }
 
     fn __dir__(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        let own = py.get_type::<Self>().getattr("__dict__")?.try_iter()?;
-        let own = own.map(|name| name?.extract::<String>()).collect::<PyResult<Vec<_>>>()?;
-        let fields: Vec<String> = self
-            .fields(py)?
-            .call_method0("keys")?
-            .try_iter()?
-            .map(|name| name?.extract())
-            .collect::<PyResult<_>>()?;
-        Ok(own.into_iter().filter(|name| !name.starts_with('_')).chain(fields).collect())
+        let own = py.get_type::<Self>().getattr("__dict__")?;
+        py.import("abbe._fields")?.call_method1("names", (own, self.fields(py)?))?.extract()
     }
 
     /// Shows the first screen, and all tables below a heading that opens them.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        if let (Some(rows), "simulate") = (&self.rows, &*self.kind) {
+        if self.kind == "simulate"
+            && let Some(rows) = self.rows(py)?
+        {
             // Its text is a file.
-            let table = Table::new(rows)?.html(py)?;
+            let table = Table::new(&rows)?.html(py)?;
             return Ok(format!("<div><strong>{} simulated rows</strong>{table}</div>", rows.rows.len()));
         }
         guarded(|| {
@@ -298,7 +319,9 @@ impl Report {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Saved,))> {
         let text = |detail| guarded(|| Ok(py.detach(|| (self.text)(detail))));
         let figures = self.figures.as_ref().map_or(Ok(Vec::new()), |make| guarded(|| Ok(py.detach(make))))?;
-        let rows = self.rows.as_ref();
+        let fields: Value = serde_json::from_str(&self.json).map_err(failed)?;
+        let is_large = fields["configurations"].as_u64().is_some_and(|count| count > MOST_PICKLED);
+        let rows = if is_large { None } else { self.rows(py)? };
         let saved = (
             self.kind.clone(),
             self.json.clone(),
@@ -308,9 +331,7 @@ impl Report {
             self.pages.as_ref().and_then(|_| self.pages(py).ok()),
             self.spec.clone(),
             figures,
-            rows.map(|rows| {
-                (rows.heading.clone(), rows.units.clone(), rows.rows.clone(), rows.labels.clone())
-            }),
+            rows.map(|rows| (rows.heading, rows.units, rows.rows, rows.labels)),
         );
         Ok((py.import("abbe._abbe")?.getattr("_report")?, (saved,)))
     }
@@ -337,11 +358,12 @@ pub(crate) fn restore(py: Python<'_>, saved: Saved) -> PyResult<Py<Report>> {
         messages,
         pages: pages.map(|pages| Box::new(move || Ok(pages.clone())) as Make<Pages>),
         figures: Some(Box::new(move || figures.clone())),
-        rows: rows.map(|(heading, units, rows, labels)| data::Table { heading, units, rows, labels }),
+        rows: None,
         spec,
         fields: PyOnceLock::new(),
     };
-    report.create(py)
+    let rows = rows.map(|(heading, units, rows, labels)| data::Table { heading, units, rows, labels });
+    rows.into_iter().fold(report, Report::with_rows).create(py)
 }
 
 /// Returns the class of `abbe.reports` for a kind of report.
@@ -352,12 +374,6 @@ fn class<'py>(py: Python<'py>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
 
 fn failed(error: serde_json::Error) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
-}
-
-fn write(path: &Path, text: &str, overwrite: bool) -> std::io::Result<()> {
-    let mut options = File::options();
-    options.write(true).truncate(overwrite).create(overwrite).create_new(!overwrite);
-    options.open(path)?.write_all(text.as_bytes())
 }
 
 /// Collects every list of records with the dotted path of its field. An empty list may be one, too.
