@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import options
-from ._fields import Fields, Figure, Page
+from ._fields import Commands, Fields, Figure, Page
 from .spec import Manipulator, Source
 from .reports import (
     AllocateReport,
@@ -26,7 +26,7 @@ from .reports import (
     SimulateReport,
 )
 
-__all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "Table", "__version__", "_commands", "_part", "_report", "_restore", "_table", "import_dh", "import_urdf", "load", "merge", "positioning", "shipped"]
+__all__ = ["Machine", "Part", "Report", "SpecError", "Table", "__version__", "_part", "_report", "_restore", "_table", "import_dh", "import_urdf", "load", "merge", "positioning", "shipped"]
 
 __version__: str
 
@@ -110,6 +110,9 @@ class Machine:
     @property
     def variables(self) -> tuple[str, ...]:
         """Names of the joint variables, in the order of q."""
+    @property
+    def passive_variables(self) -> tuple[str, ...]:
+        """Names of the passive variables, which loops determine, in the order of `passive`."""
     @property
     def limits(self) -> list[tuple[float, float]]:
         """Lower and upper limit of each joint variable in the length unit or rad; infinite if the spec
@@ -228,11 +231,10 @@ class Machine:
         length unit and rad.
         """
     def displaced_pose(self, q: _Joints, errors: ArrayLike, *, out: _Array | None = None) -> _Array:
-        """(…, 4, 4): exact pose of the tool in F_0 with given errors ε of the frames, all loops
-        closed.
+        """(…, 4, 4): exact pose of the tool in F_0 with given errors ε of the frames: by the chain
+        A_1 E_1 … A_n E_n T, with all loops closed.
 
-        `errors`: as for `displacement`. Rows, columns and units as for `pose`. A machine
-        without loops raises ValueError.
+        `errors`: as for `displacement`. Rows, columns and units as for `pose`.
         """
     def covariance(self, q: _Joints, sigma: ArrayLike, *, out: _Array | None = None) -> _Array:
         """(…, 6, 6): covariance J_e diag(σ²) J_eᵀ of ΔX in F_0 for independent errors.
@@ -372,7 +374,9 @@ class Machine:
         the draws and of the study's random samples. `figures`: collect data for `.report(folder)`
         and `.figure(name)`.
 
-        Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
+        `.table("configurations")` has the configurations, the ideal tool point, and its
+        displacements by each source. Lengths are in the unit of the spec, angles in rad. Fields:
+        `abbe.reports.AnalyzeReport`.
 
         >>> import abbe
         >>> report = abbe.load("pps").analyze()
@@ -408,7 +412,9 @@ class Machine:
         the draws and of the study's random samples. `figures`: collect data for `.report(folder)`
         and `.figure(name)`.
 
-        Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
+        `.table("configurations")` has the configurations, the ideal tool point, and its
+        displacements by each source. Lengths are in the unit of the spec, angles in rad. Fields:
+        `abbe.reports.AnalyzeReport`.
 
         >>> import abbe
         >>> report = abbe.load("pps").analyze()
@@ -548,8 +554,9 @@ class Machine:
         many). `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
 
         `.table("rows")` has the residuals of every point in the frame of the instrument, with only
-        base and tool fitted ("x before" …) and with the identified model ("x" …). `.report(folder)`
-        writes report.html, found.toml and found.map.toml; `.load()` returns the identified machine.
+        base and tool fitted ("x before" …) and with the identified model ("x" …). `.covariance` is
+        that of the identified errors. `.report(folder)` writes report.html, found.toml and
+        found.map.toml; `.load()` returns the identified machine, with the changes of this one.
         Fields: `abbe.reports.IdentifyReport`.
         """
     def plan(
@@ -559,7 +566,7 @@ class Machine:
         sets: _Path | None = None,
         count: int | None = None,
         criterion: options.Criterion = "v",
-        candidates: int = 500,
+        candidates: int | _Joints = 500,
         model_error: _Length | None = None,
         study: _Study | None = None,
         seed: int | None = None,
@@ -569,11 +576,12 @@ class Machine:
 
         `map`: path of the map of the measurements, or a shipped name. `sets`: path of a plan file
         with sets of configurations: `count` of them are chosen, or all are evaluated; without it,
-        `count` (50) configurations are chosen from `candidates` samples. `criterion`: "v" for the
-        smallest mean variance of the tool point over the workspace of `study`, "d" for the largest
-        determinant of the information matrix. `seed`: of random candidates; without it they are
-        evenly distributed. `model_error`: model error at the tool point in addition to the noise of
-        the instrument, in the length unit or as text with a unit.
+        `count` (50) configurations are chosen from `candidates`: a number of samples, or
+        configurations (m, nq) as an array, or a table with columns of joints and inputs.
+        `criterion`: "v" for the smallest mean variance of the tool point over the workspace of
+        `study`, "d" for the largest determinant of the information matrix. `seed`: of random
+        candidates; without it they are evenly distributed. `model_error`: model error at the tool
+        point in addition to the noise of the instrument, in the length unit or as text with a unit.
 
         `.report(folder)` writes plan.csv. Fields: `abbe.reports.PlanReport`.
         """
@@ -698,22 +706,6 @@ class Machine:
         """
     def __reduce__(self) -> tuple[Any, tuple[str, str | None, list[tuple[str, str]]]]: ...
 
-@final
-class Commands:
-    """Corrected joint commands of one or many configurations."""
-    @property
-    def q(self) -> _Array:
-        """(…, nq): corrected commands, within the joint limits."""
-    @property
-    def left(self) -> _Array:
-        """(…, 6): ΔX that remains in F_0, in the length unit and rad."""
-    @property
-    def reason(self) -> str | None | list[str | None]:
-        """Reason as text, or None if the configuration is compensated to the tolerance; a
-        list for many configurations.
-        """
-    def __reduce__(self) -> tuple[Any, list[Any]]: ...
-
 class Report:
     """Result of a job. Its fields, also nested ones, have the names of the JSON report and are
     described by its class in `abbe.reports`; `print` shows the answer on one screen, `full()` every
@@ -725,6 +717,12 @@ class Report:
     @property
     def statements(self) -> dict[str, str]:
         """Sentences of the report by their names, which stay: `answer` is the first line of its text."""
+    @property
+    def covariance(self) -> _Array:
+        """(p, p): covariance of the identified errors of the machine, relative to base and target, in
+        the length unit and rad. The first column of `table("covariance")` has the names of its rows
+        and columns: those of `Machine.columns`, `e_x0` … of the base, and names of sources.
+        """
     def to_dict(self) -> dict[str, Any]:
         """Returns all fields as plain dicts, lists, numbers and texts."""
     def full(self) -> str:
@@ -753,8 +751,9 @@ class Report:
         in the units of the axes.
         """
     def tables(self) -> list[str]:
-        """Returns the names of the tables: fields that are lists of records, and `rows` if the report
-        has one row per measurement.
+        """Returns the names of the tables: fields that are lists of records; `rows` if the report has
+        one row per measurement; `configurations`, the errors at each configuration of an analysis,
+        which are computed again when they are asked for; and the `covariance` of an identification.
         """
     def table(self, name: str) -> Table:
         """Returns one table, which any Arrow reader takes without a copy. An empty list is a table
@@ -912,14 +911,14 @@ def positioning(
     >>> import abbe
     >>> runs = {"position (mm)": [0, 100], "1+ (um)": [1.0, 4.0], "1- (um)": [0.0, 2.0]}
     >>> report = abbe.positioning(runs)
-    >>> report.lines[0].bidirectional.reversal.value
+    >>> both = report.lines[0].bidirectional
+    >>> both and both.reversal.value
     2.0
     """
 def shipped() -> list[str]:
     """Returns the names of the shipped manipulators that have compiled code; `load` also finds the
     mechanisms that `abbe list` shows.
     """
-def _commands(q: Any, left: Any, reason: Any) -> Commands: ...
 def _part(bytes: bytes) -> Part: ...
 def _report(saved: Any) -> Report: ...
 def _restore(origin: str, text: str | None, changes: list[tuple[str, str]]) -> Machine: ...

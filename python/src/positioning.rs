@@ -24,7 +24,8 @@ use crate::{Measured, Report, run};
 /// >>> import abbe
 /// >>> runs = {"position (mm)": [0, 100], "1+ (um)": [1.0, 4.0], "1- (um)": [0.0, 2.0]}
 /// >>> report = abbe.positioning(runs)
-/// >>> report.lines[0].bidirectional.reversal.value
+/// >>> both = report.lines[0].bidirectional
+/// >>> both and both.reversal.value
 /// 2.0
 #[pyfunction]
 #[pyo3(signature = (data, *, reading_uncertainty=None, scale_uncertainty=None, accept=None))]

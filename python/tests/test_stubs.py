@@ -1,8 +1,11 @@
 """Stubs: their docstrings are those of the module. `UPDATE_EXPECT=1` writes them."""
 
 import ast
+import doctest
 import inspect
+import json
 import os
+import re
 import subprocess
 import sys
 import textwrap
@@ -103,3 +106,27 @@ def test_fields_are_typed(tmp_path):
     assert right.returncode == 0, right.stdout
     wrong = subprocess.run([*run, "wrong.py"], cwd=tmp_path, capture_output=True, text=True).stdout
     assert [line.split(":")[1] for line in wrong.splitlines() if ": error:" in line] == ["5", "6", "7"], wrong
+
+
+def examples():
+    """Yield the examples of the chapter, of the docstrings and of the notebooks, as Python."""
+    docs, parser = Path(__file__).parents[2] / "docs", doctest.DocTestParser()
+    texts = {"chapter": "\n".join(re.findall(r"^```pycon\n(.*?)^```", (docs / "python.md").read_text(encoding="utf-8"), re.M | re.S))}
+    for name, owner in [("Machine", abbe.Machine), ("abbe", abbe)]:
+        texts |= {f"{name}_{member}": inspect.getdoc(getattr(owner, member)) or "" for member in dir(owner) if not member.startswith("_")}
+    for name, text in texts.items():
+        if code := "".join(example.source for example in parser.get_examples(text)):
+            yield name, code
+    for notebook in sorted((docs / "python").glob("*.ipynb")):
+        cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+        yield notebook.stem.replace("-", "_"), "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
+
+
+def test_examples_are_typed(tmp_path):
+    pytest.importorskip("mypy", reason="mypy is not installed")
+    for name, code in examples():
+        (tmp_path / f"{name}.py").write_text(code, encoding="utf-8")
+    files = sorted(path.name for path in tmp_path.glob("*.py"))
+    run = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(tmp_path / "cache"), *files]
+    found = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True)
+    assert len(files) > 20 and found.returncode == 0, found.stdout
