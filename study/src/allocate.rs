@@ -5,6 +5,7 @@ use abbe::analysis::{Sweepable, Workspace};
 use crate::analyze::{self, Analyze, Verdict};
 use crate::factors::Factors;
 use crate::study_file::{Criterion, Study};
+use crate::workspace::in_one_run;
 use crate::{About, Changes, Machine, Notes, Result, mistake};
 
 pub use crate::factors::{AllocatedSource, Report, printed};
@@ -41,6 +42,7 @@ impl Allocate {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report> {
         let manipulator = &*self.machine.evaluator(true);
         let workspace = self.study.region.workspace(manipulator, None).about(&self.machine.origin)?;
+        in_one_run(workspace.len(), &self.machine.origin)?;
         match self.study.criterion {
             Criterion::WorstCase | Criterion::RootSumOfSquares => {
                 self.factors(&self.study).over(manipulator, &*workspace, notes)

@@ -27,7 +27,7 @@ fn every_number_of_threads_gives_the_same_to_the_last_bit() {
 #[test]
 fn a_random_sample_follows_from_seed_and_index() {
     let samples = |count, seed| random_joint_samples(&Pps, &[0, 3], count, seed).unwrap();
-    let (few, many, other) = (samples(10, 1), samples(1_000_000_000, 1), samples(10, 2));
+    let (few, many, other) = (samples(10, 1), samples(10_000_000_000_000, 1), samples(10, 2));
     for index in 0..10 {
         let sample = few.configuration(index).unwrap();
         assert_eq!(sample, many.configuration(index).unwrap());

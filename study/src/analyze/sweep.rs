@@ -20,7 +20,7 @@ use super::{FirstOrder, LoopCondition, unreachable};
 use crate::bound::CertifiedNorms;
 use crate::calibration::named_as_one;
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
-use crate::workspace::Form;
+use crate::workspace::{Form, in_one_run};
 use crate::{Machine, Notes, Result, RunRecord, Study, finite, mistake, number};
 
 /// Largest number of configurations that are checked for extrapolation.
@@ -61,6 +61,7 @@ impl AnalysisSweep<'_> {
         notes: &mut dyn Notes,
     ) -> Result<PartialAnalysis> {
         let range = self.budget.configurations(&chunks);
+        in_one_run(range.len(), &self.machine.origin)?;
         let builder = self.figures.then(|| FiguresBuilder::new(self.study, self.manipulator.description()));
         notes.progress(0, range.len());
         let parts = self.parts();

@@ -9,7 +9,8 @@ use abbe_codegen::chain::{DIRECTION, Implicit, Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
 use indexmap::IndexMap;
 
-use crate::{Machine, Result, Study, mistake, number, workspace::Span};
+use crate::workspace::{Span, in_one_run};
+use crate::{Machine, Result, Study, mistake, number};
 
 /// Largest number of names that may move. The search for the worst case moves two more.
 const MOST_NAMES: usize = MOST_MOVING - DIRECTION.len();
@@ -68,6 +69,7 @@ impl Domain {
     ) -> Option<(Vec<f64>, [f64; 2])> {
         let manipulator = &*machine.evaluator(true);
         let workspace = study.region.workspace(manipulator, None).ok()?;
+        in_one_run(workspace.len(), "").ok()?;
         let budget = error_budget(manipulator, &*workspace, BudgetOptions::default(), &mut ()).ok()?;
         let worst = budget.combined.worst_case_radius.configuration?;
         let Configuration { q, s, u } = workspace.configuration(worst).ok()?;

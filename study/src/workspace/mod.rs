@@ -16,5 +16,6 @@ pub use axis::{Candidates, constant, count, positive, whole};
 pub use forms::read_region;
 pub use keys::{rules, tables};
 pub use path::Path;
+pub(crate) use region::in_one_run;
 pub use region::{Form, Region, has_range};
 pub use span::Span;

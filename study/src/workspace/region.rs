@@ -8,13 +8,30 @@ use abbe::{Error, Manipulator, analysis::sampling::range_of};
 use abbe_spec::{Input, Spec};
 
 use super::{orientation::describe, path::Path};
-use crate::number;
+use crate::{mistake, number};
 
 /// Default number of joint samples.
 const SAMPLES: usize = 1000;
 
-/// Largest number of configurations of a workspace, to limit the computing time.
-pub(super) const LARGEST: usize = 1_000_000_000;
+/// Largest number of configurations of a workspace, and of those that one run sweeps.
+pub(super) const LARGEST: usize = if usize::BITS < 64 { ONE_RUN } else { 10_usize.pow(13) };
+const ONE_RUN: usize = 1_000_000_000;
+
+/// Refuses to sweep more configurations than one run can; `origin` is the machine.
+///
+/// # Errors
+///
+/// There are more than 10⁹.
+pub(crate) fn in_one_run(count: usize, origin: &str) -> crate::Result<()> {
+    if count <= ONE_RUN {
+        return Ok(());
+    }
+    let message = format!("{count} configurations are more than one run sweeps, {ONE_RUN}");
+    let parts = count.div_ceil(ONE_RUN);
+    let help =
+        format!("use fewer, or sweep them in parts, `abbe analyze … --shard 1/{parts}`, and merge these");
+    Err(mistake::with_help(origin, message, help))
+}
 
 /// Largest number of inputs for which every combination of their ends is the default; more inputs
 /// are sampled.

@@ -300,3 +300,23 @@ fn a_damaged_part_merges_or_is_refused() {
     }
     assert!(merged > times / 10 && refused > times / 10, "{merged} {refused}");
 }
+
+#[test]
+fn more_than_one_run_sweeps_is_swept_in_parts() {
+    let [question, ..] = questions();
+    let large = |samples: &str| {
+        let text = format!("[study]\ntitle = \"t\"\n[workspace.random]\nsamples = {samples}\nseed = 3\n");
+        let study = Some(FileText { name: "study.toml".to_owned(), folder: None, text });
+        AnalysisRequest { study, figures: false, monte_carlo: None, ..question.clone() }
+    };
+    let refused =
+        large("3_000_000_001").job(&mut ()).unwrap().run(&mut ()).map(|_| ()).unwrap_err().to_string();
+    assert!(refused.contains("3000000001 configurations are more than one run sweeps"), "{refused}");
+    assert!(refused.contains("--shard 1/4`"), "{refused}");
+    assert!(Part::new(large("3_000_000_001"), "1/2".parse().unwrap(), &mut ()).is_err());
+    // Nothing takes longer or more memory because the study is large: this is its last part, in whole chunks.
+    let last = Part::new(large("10_000_000_000"), "100000/100000".parse().unwrap(), &mut ()).unwrap();
+    let [reached, unreachable] = last.configurations();
+    assert!((reached + unreachable).abs_diff(100_000) < 10_000, "{reached} {unreachable}");
+    assert!(last.to_bytes().len() < 30_000, "{}", last.to_bytes().len());
+}
