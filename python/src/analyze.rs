@@ -174,11 +174,9 @@ impl Machine {
             Ok((job.run(notes)?, job, has_q))
         })?;
         let again = job.clone();
-        // A command names files, or shipped machines and studies.
-        let is_named = job.machine().file.is_some() || job.machine().shipped.is_some();
-        let study = study.map(|study| study.to_string_lossy().into_owned());
+        let text = (study_text.is_some() || has_q).then(String::new);
+        let study = text.or_else(|| study.map(|study| study.to_string_lossy().into_owned()));
         let live = Explore { analysis: Cow::Owned(job), study, residuals: None };
-        let live = Some(live).filter(|_| is_named && study_text.is_none() && !has_q);
         let rows: Make<Table> = Box::new(move || rows(&again));
         Ok(analysis(py, report, live, Some(rows), notes)?.into_bound(py).into_any())
     }

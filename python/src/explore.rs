@@ -1,6 +1,7 @@
 //! Live pages.
 
 use std::borrow::Cow;
+use std::path::PathBuf;
 
 use abbe_study::explore::Explore;
 use pyo3::prelude::*;
@@ -31,7 +32,8 @@ impl Machine {
         let (study, study_text) = GivenStudy::or_text(study, study_text);
         let (report, _) = run(py, None, None, |notes| {
             let analysis = Cow::Owned(self.job(study.as_deref(), study_text.as_deref(), &[], notes)?);
-            let study = study.as_ref().map(|study| study.to_string_lossy().into_owned());
+            let name = |study: &PathBuf| study.to_string_lossy().into_owned();
+            let study = study_text.map(|_| String::new()).or_else(|| study.as_ref().map(name));
             Explore { analysis, study, residuals: None }.run(notes)
         })?;
         page(py, &report.title, &abbe_report::explore(std::slice::from_ref(&report)), height)

@@ -122,15 +122,15 @@ pub(crate) fn merge(
             Explore { analysis: Cow::Owned(merge.job().clone()), study: merge.study(), residuals: None };
         Ok((merge.report(notes)?, live))
     })?;
-    analysis(py, report, Some(live), None, notes)
+    analysis(py, report, live, None, notes)
 }
 
 /// Creates the report of an analysis, with its text, tables and pages. `live` is the job of the
-/// page's live panel; without files that a command can name there is none.
+/// page's live panel.
 pub(crate) fn analysis(
     py: Python<'_>,
     report: analyze::Report,
-    live: Option<Explore<'static>>,
+    live: Explore<'static>,
     rows: Option<Make<Table>>,
     notes: Vec<String>,
 ) -> PyResult<Py<Report>> {
@@ -138,8 +138,7 @@ pub(crate) fn analysis(
     let drawn = Arc::clone(&report);
     let found = Report::from_document("analyze", &report, notes, budget)?.with_made_rows(rows);
     let found = found.with_figures(move || abbe_report::figures(&drawn)).with_pages(move || {
-        let live = live.as_ref().map(|live| live.run(&mut ())).transpose()?;
-        let files = abbe_report::analysis(&report, live.as_ref());
+        let files = abbe_report::analysis(&report, Some(&live.run(&mut ())?));
         Ok(files.into_iter().map(|file| (file.name, file.text)).collect())
     });
     found.create(py)

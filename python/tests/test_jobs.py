@@ -243,3 +243,22 @@ def test_live_pages_are_shown_in_a_frame_and_saved(tmp_path):
     assert 'class="abbe-panel"' in machine.analyze().explore().html
     with pytest.raises(ValueError, match="no page"):
         machine.check().explore()
+
+
+def test_pages_of_texts_have_a_panel_without_a_command():
+    """No command can name what a program gave as a text or as rows."""
+    ur5 = abbe.load("ur5")
+    arm = abbe.load(text='[manipulator]\nname = "arm"\nlength = "mm"\n[[frame]]\nname = "turn"\nvariable = { name = "q1", kind = "revolute", limits = ["-90 deg", "90 deg"] }\n'
+        'transform = "Rz(q1) Tx(300)"\n[[source]]\nname = "gear"\nclass = "random"\ndistribution = "normal"\njoint = "q1"\nerror = "1 mrad"\n'
+    )
+    few = '[study]\ntitle = "few"\n[workspace.joints]\nsamples = 5\n'
+    for page, spec in [
+        (ur5.analyze().explore(), "ur5"),
+        (ur5.analyze(study_text=few).explore(), ""),
+        (ur5.analyze(q=[ur5.home]).explore(), ""),
+        (ur5.explore(study_text=few), ""),
+        (arm.analyze().explore(), ""),
+        (arm.explore(), ""),
+    ]:
+        assert page.html.count('class="abbe-panel"') == 1
+        assert f'{{"spec":"{spec}",' in page.html

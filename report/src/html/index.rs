@@ -7,8 +7,8 @@ use super::{document, escaped, heading};
 use crate::document::{Block, Document};
 use crate::{scene::Scene, svg};
 
-/// Builds the page that links to the pages of several machines, `NAME.html` in the same folder, with
-/// the verdicts of their error budgets and their pictures.
+/// Builds the page that links to the pages of several machines, `NAME.html` in the same folder,
+/// with the verdicts of their error budgets and their pictures.
 pub(crate) fn index<'m>(machines: impl Iterator<Item = (&'m Report, Document, Option<Scene>)>) -> String {
     let row = |(live, budget, picture): (&Report, Document, Option<Scene>)| {
         let name = escaped(&live.name);

@@ -29,7 +29,8 @@ const FUNCTIONS: [&str; 6] =
 pub struct Explore<'a> {
     /// Analysis of the machine over its study, with all changes.
     pub analysis: Cow<'a, Analyze>,
-    /// Study as it was given; `None` for that of the machine.
+    /// Study as it was given, empty for a text, which no command can name; `None` for that of the
+    /// machine.
     pub study: Option<String>,
     /// Measured rows, whose configurations replace those of the study.
     pub residuals: Option<Residuals>,
@@ -64,7 +65,10 @@ impl Explore<'_> {
         let effects = report::effects(&Interpreter::new(Arc::new(tunable.clone())));
         let options = [self.analyze_options(), self.jacobian_options()];
         let report = Report::new(&self.analysis, options, &tunable, effects, configurations, code);
-        finite(&machine.origin, Report { residuals: self.residuals.clone(), ..report })
+        let is_named =
+            self.study.as_deref() != Some("") && (machine.file.is_some() || machine.shipped.is_some());
+        let spec = if is_named { report.spec } else { String::new() };
+        finite(&machine.origin, Report { spec, residuals: self.residuals.clone(), ..report })
     }
 
     /// Returns the options of `abbe analyze`, in the order of a command line: the study, its

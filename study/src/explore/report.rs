@@ -18,7 +18,8 @@ use crate::{Residuals, number};
 /// unit, angles in rad, vectors in `F_0`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// SPEC as it was given: path of a spec, or name of a shipped manipulator.
+    /// SPEC as it was given: path of a spec, or name of a shipped manipulator. Empty if spec or
+    /// study is a text, which no command can name.
     pub spec: String,
     /// Name of the manipulator.
     pub name: String,

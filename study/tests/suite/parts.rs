@@ -314,7 +314,7 @@ fn more_than_one_run_sweeps_is_swept_in_parts() {
     assert!(refused.contains("3000000001 configurations are more than one run sweeps"), "{refused}");
     assert!(refused.contains("--shard 1/4`"), "{refused}");
     assert!(Part::new(large("3_000_000_001"), "1/2".parse().unwrap(), &mut ()).is_err());
-    // Nothing takes longer or more memory because the study is large: this is its last part, in whole chunks.
+    // Nothing takes longer because the study is large: its last part, in whole chunks.
     let last = Part::new(large("10_000_000_000"), "100000/100000".parse().unwrap(), &mut ()).unwrap();
     let [reached, unreachable] = last.configurations();
     assert!((reached + unreachable).abs_diff(100_000) < 10_000, "{reached} {unreachable}");

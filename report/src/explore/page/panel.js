@@ -49,11 +49,13 @@ function createSame(panel) {
         };
         return { code, element: html("div", { class: "copied" }, code, button(name, () => void copy())) };
     });
-    const element = html("section", { class: "same" }, html("h2", {}, "The same figures by the command, and as a link"),
-        ...lines.map((line) => line.element), status);
+    // Texts that a program gave have no name that a command could take.
+    const isNamed = report.spec !== "";
+    const element = html("section", { class: "same" }, html("h2", {}, isNamed ? "The same figures by the command, and as a link" : "The same figures as a link"),
+        ...lines.filter((_, i) => isNamed || i === 2).map((line) => line.element), status);
     const settle = () => {
         const link = `${location.href.split("#")[0]}#${addresses.map((address) => address()).filter(Boolean).join("&")}`;
-        [...commands(report, state, panel.tolerances), link].forEach((text, i) => setText(lines[i].code, text));
+        [...(isNamed ? commands(report, state, panel.tolerances) : ["", ""]), link].forEach((text, i) => setText(lines[i].code, text));
         try {
             history.replaceState(null, "", link);
         } catch {
