@@ -12,9 +12,9 @@ const INTRODUCTION: &str = "\
 <!-- Generated from the types of the reports: `UPDATE_EXPECT=1 cargo test -p abbe-tests json_reference`. -->
 
 `abbe COMMAND … --json` prints its report as one line of JSON on stdout; messages go to stderr. The keys are a
-contract: a new version may add keys, and CHANGELOG.md names every key that it changes. In [Python](../python.md) the
-same names are fields: `report.combined.radius`, `report.ledger.sources[0].max`; the class of each group is in
-`abbe.reports`, by the name of its section.
+contract: a new version may add keys, and its [release notes](../releases/0.3.md) name every key that it changes. In
+[Python](../python.md) the same names are fields: `report.combined.radius`, `report.ledger.sources[0].max`; the class of
+each group is in `abbe.reports`, by the name of its section.
 
 - Objects with fixed keys are groups, with a section each. In other objects the keys are names of the machine, such as
   those of its joint variables: `{\"q1\": 0.5, \"q2\": 0.0}`.
