@@ -5,12 +5,13 @@
 use std::{path::Path, process::Command};
 
 /// Sources that the command is compiled from, relative to this package.
-const SOURCES: [&str; 14] = [
+const SOURCES: [&str; 16] = [
     "../Cargo.toml",
     "../Cargo.lock",
     "../spec",
     "../codegen",
     "../runtime",
+    "../kinematics",
     "../analysis",
     "../bound",
     "../calibration",
@@ -18,6 +19,7 @@ const SOURCES: [&str; 14] = [
     "../manipulators",
     "../exchange",
     "../study",
+    "../metrology",
     "../report",
     "../cli",
 ];
