@@ -87,6 +87,17 @@ impl Machine {
         Ok(Self::new(spec, shipped.name, Some(shipped)))
     }
 
+    /// Returns the text of a shipped machine before changes.
+    fn shipped_text(&self) -> Option<&'static str> {
+        let mechanism = || MECHANISMS.iter().find(|(name, _)| *name == self.origin);
+        self.shipped.map(|shipped| shipped.spec).or_else(|| Some(mechanism()?.1))
+    }
+
+    /// Returns whether a command can name the machine: a file, or a shipped one.
+    pub fn is_named(&self) -> bool {
+        self.file.is_some() || self.shipped_text().is_some()
+    }
+
     /// Returns the machine of a spec that messages name `origin`.
     pub fn of_spec(spec: Spec, origin: &str) -> Self {
         Self::new(spec, origin, None)
@@ -202,15 +213,9 @@ impl Machine {
 
     /// Returns the text of the spec before changes.
     pub fn text(&self) -> Result<String> {
-        let mechanism = || MECHANISMS.iter().find(|(name, _)| *name == self.origin);
-        Ok(match (self.shipped, &self.file) {
-            (Some(shipped), _) => shipped.spec.to_owned(),
-            (None, Some(file)) => Document::read(file)?.text.to_string(),
-            (None, None) => match mechanism() {
-                Some((_, text)) => (*text).to_owned(),
-                None => Document::read(Path::new(&self.origin))?.text.to_string(),
-            },
-        })
+        let path = self.file.as_deref().unwrap_or(Path::new(&self.origin));
+        let shipped = self.shipped_text().filter(|_| self.file.is_none());
+        shipped.map_or_else(|| Ok(Document::read(path)?.text.to_string()), |text| Ok(text.to_owned()))
     }
 
     /// Returns the text of the spec before changes for another file: relative paths of tables lead

@@ -11,8 +11,7 @@ use crate::{scene::Scene, svg};
 /// with the verdicts of their error budgets and their pictures.
 pub(crate) fn index<'m>(machines: impl Iterator<Item = (&'m Report, Document, Option<Scene>)>) -> String {
     let row = |(live, budget, picture): (&Report, Document, Option<Scene>)| {
-        let name = escaped(&live.name);
-        let joints = live.variables.len();
+        let (name, joints) = (escaped(&live.name), live.variables.len());
         let sources = live.sources.iter().filter(|source| source.enabled).count();
         let largest =
             budget.sections.iter().flat_map(|section| &section.blocks).find_map(|block| match block {
@@ -31,12 +30,8 @@ pub(crate) fn index<'m>(machines: impl Iterator<Item = (&'m Report, Document, Op
     };
     let rows = machines.map(row).collect::<Vec<_>>();
     let columns = ["name", "", "machine and verdict", "largest error", "joints", "error sources"];
-    let table = ledger(
-        "One page for each machine",
-        &columns,
-        &[0, 2],
-        &format!("<tbody>{}</tbody>\n", rows.concat()),
-    );
+    let body = format!("<tbody>{}</tbody>\n", rows.concat());
+    let table = ledger("One page for each machine", &columns, &[0, 2], &body);
     let heading = heading("Live pages", &format!("{} machines", rows.len()), "");
     document("Live pages", &[heading, table].concat(), None)
 }

@@ -65,8 +65,7 @@ impl Explore<'_> {
         let effects = report::effects(&Interpreter::new(Arc::new(tunable.clone())));
         let options = [self.analyze_options(), self.jacobian_options()];
         let report = Report::new(&self.analysis, options, &tunable, effects, configurations, code);
-        let is_named =
-            self.study.as_deref() != Some("") && (machine.file.is_some() || machine.shipped.is_some());
+        let is_named = self.study.as_deref() != Some("") && machine.is_named();
         let spec = if is_named { report.spec } else { String::new() };
         finite(&machine.origin, Report { spec, residuals: self.residuals.clone(), ..report })
     }
