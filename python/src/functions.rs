@@ -64,7 +64,16 @@ impl Machine {
         let third = match *third {
             ThirdArgument::None => None,
             ThirdArgument::Numbers(name, value) => {
-                Some(vec_of(numbers(value, name, None)?, name, &signature.arguments[2], description)?)
+                let given = vec_of(numbers(value, name, None)?, name, &signature.arguments[2], description)?;
+                // Sources have errors, too: what is not finite here is no fault of theirs.
+                if let Some(at) = given.values.slice()?.iter().position(|value| !value.is_finite()) {
+                    let width = signature.arguments[2].len(description);
+                    let (row, at) = (at / width, at % width);
+                    return Err(PyValueError::new_err(format!(
+                        "`{name}` of configuration {row} is not finite, at {at}"
+                    )));
+                }
+                Some(given)
             }
             ThirdArgument::Squares(name, value) => {
                 let array = numbers(value, name, None)?;

@@ -302,3 +302,12 @@ def test_pose_with_errors_is_the_real_pose():
     machine = abbe.load("ur5").with_source(bent | {"name": "bent", "frame": "elbow"}).with_source(bent | {"name": "more", "frame": "wrist 2"})
     q = np.random.default_rng(4).uniform(-2, 2, (40, 6))
     assert np.abs(machine.displaced_pose(q, machine.generalized_errors(q)) - machine.real_pose(q)).max() < 1e-9
+
+
+@pytest.mark.parametrize("name", ["displacement", "displaced_pose"])
+def test_errors_that_are_not_finite_are_named(name):
+    pps = abbe.load("pps")
+    errors = np.zeros((3, len(pps.columns)))
+    errors[1, 7] = np.nan
+    with pytest.raises(ValueError, match="`errors` of configuration 1 is not finite, at 7"):
+        getattr(pps, name)(pps.home, errors)
