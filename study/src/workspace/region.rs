@@ -5,7 +5,7 @@ use abbe::analysis::{
     joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
 };
 use abbe::{Error, Manipulator, analysis::sampling::range_of};
-use abbe_spec::{Input, Spec};
+use abbe_spec::{Input, Spec, option::shard_command};
 
 use super::{orientation::describe, path::Path};
 use crate::{mistake, number};
@@ -28,8 +28,8 @@ pub(crate) fn in_one_run(count: usize, origin: &str) -> crate::Result<()> {
     }
     let message = format!("{count} configurations are more than one run sweeps, {ONE_RUN}");
     let parts = count.div_ceil(ONE_RUN);
-    let help =
-        format!("use fewer, or sweep them in parts, `abbe analyze … --shard 1/{parts}`, and merge these");
+    let first = shard_command(origin, 1, parts.try_into().unwrap_or(u32::MAX));
+    let help = format!("use fewer, or sweep them in parts, the first by `{first}`, and merge these");
     Err(mistake::with_help(origin, message, help))
 }
 

@@ -312,7 +312,7 @@ fn more_than_one_run_sweeps_is_swept_in_parts() {
     let refused =
         large("3_000_000_001").job(&mut ()).unwrap().run(&mut ()).map(|_| ()).unwrap_err().to_string();
     assert!(refused.contains("3000000001 configurations are more than one run sweeps"), "{refused}");
-    assert!(refused.contains("--shard 1/4`"), "{refused}");
+    assert!(refused.contains("`abbe analyze pps --shard 1/4 --out FILE`"), "{refused}");
     assert!(Part::new(large("3_000_000_001"), "1/2".parse().unwrap(), &mut ()).is_err());
     // Nothing takes longer because the study is large: its last part, in whole chunks.
     let last = Part::new(large("10_000_000_000"), "100000/100000".parse().unwrap(), &mut ()).unwrap();
