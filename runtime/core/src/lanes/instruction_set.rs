@@ -1,10 +1,14 @@
 //! Instruction sets that kernels are compiled for, and the selection at run time.
 
 use core::fmt;
-
-use pulp::NullaryFnOnce;
 #[cfg(target_arch = "x86_64")]
-use pulp::x86::{V3, V4};
+use core::marker::PhantomData;
+
+#[cfg(target_arch = "x86_64")]
+use pulp::{
+    NullaryFnOnce,
+    x86::{V3, V4},
+};
 
 use super::Register;
 use crate::floats::Two;
@@ -88,23 +92,18 @@ impl InstructionSet {
         match self.0 {
             Level::Baseline => kernel.run::<Two>(),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(v3) => v3.vectorize(With::<K, crate::x86::Avx2>::new(kernel)),
+            Level::Avx2(v3) => v3.vectorize(With(kernel, PhantomData::<crate::x86::Avx2>)),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512(v4) => v4.vectorize(With::<K, crate::x86::Avx512>::new(kernel)),
+            Level::Avx512(v4) => v4.vectorize(With(kernel, PhantomData::<crate::x86::Avx512>)),
         }
     }
 }
 
 /// Kernel with its register type.
-struct With<K, R>(K, core::marker::PhantomData<R>);
+#[cfg(target_arch = "x86_64")]
+struct With<K, R>(K, PhantomData<R>);
 
-impl<K, R> With<K, R> {
-    #[inline(always)]
-    fn new(kernel: K) -> Self {
-        Self(kernel, core::marker::PhantomData)
-    }
-}
-
+#[cfg(target_arch = "x86_64")]
 impl<K: Kernel, R: Register> NullaryFnOnce for With<K, R> {
     type Output = K::Output;
 
