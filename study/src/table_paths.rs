@@ -1,6 +1,6 @@
 //! Paths of the files that a spec names, in a copy of its text.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, MAIN_SEPARATOR, Path, PathBuf};
 
 use abbe_spec::{edit::Edits, edit::write::quoted};
 
@@ -18,7 +18,7 @@ pub(crate) fn with_table_paths(text: &str, from: &Path, to: &Path) -> String {
             let item = table.as_table().and_then(|table| table.get("file"));
             let file = item.as_ref().and_then(|item| item.text()).map(Path::new);
             if let (Some(item), Some(file)) = (&item, file.filter(|file| file.is_relative())) {
-                edits.replace(item.span(), quoted(&relative(&from.join(file), &to).to_string_lossy()));
+                edits.replace(item.span(), quoted(&relative(&from.join(file), &to)));
             }
         }
         Some(())
@@ -27,15 +27,16 @@ pub(crate) fn with_table_paths(text: &str, from: &Path, to: &Path) -> String {
 }
 
 /// Returns the path of a file as seen from a folder; both are absolute. The file keeps an absolute
-/// path if they have no common root.
-fn relative(file: &Path, folder: &Path) -> PathBuf {
+/// path if they have no common root. A relative path has slashes on every system.
+fn relative(file: &Path, folder: &Path) -> String {
     let file = without_dots(file);
     let common = file.components().zip(folder.components()).take_while(|(one, other)| one == other).count();
     if common == 0 {
-        return file;
+        return file.to_string_lossy().replace(r"\\?\UNC\", r"\\").replace(r"\\?\", "");
     }
     let up = folder.components().skip(common).map(|_| Component::ParentDir);
-    up.chain(file.components().skip(common)).collect()
+    let path: PathBuf = up.chain(file.components().skip(common)).collect();
+    path.to_string_lossy().replace(MAIN_SEPARATOR, "/")
 }
 
 /// Resolves `.` and `..` by the text of the path.
