@@ -87,8 +87,9 @@ impl Write for Pending {
 }
 
 /// Creates a temporary file beside `file`, with the mode and, if allowed, the owner of the file
-/// that it will replace.
+/// that it will replace. Windows has neither, and does not delete a read-only file.
 fn temporary(file: &Path) -> io::Result<NamedTempFile> {
+    #[cfg(unix)]
     let old = fs::metadata(file).ok();
     let mut builder = Builder::new();
     builder.prefix(PREFIX).suffix(".tmp");
@@ -99,12 +100,10 @@ fn temporary(file: &Path) -> io::Result<NamedTempFile> {
         builder.permissions(fs::Permissions::from_mode(mode));
     }
     let new = builder.tempfile_in(parent(file))?;
+    #[cfg(unix)]
     if let Some(old) = old {
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::{MetadataExt, fchown};
-            let _ = fchown(new.as_file(), Some(old.uid()), Some(old.gid()));
-        }
+        use std::os::unix::fs::{MetadataExt, fchown};
+        let _ = fchown(new.as_file(), Some(old.uid()), Some(old.gid()));
         let _ = new.as_file().set_permissions(old.permissions());
     }
     Ok(new)

@@ -6,7 +6,7 @@
 //! one, and it would survive edits by hand.
 
 use std::fs::{self, File};
-use std::io::{self, Read, Write};
+use std::io::{self, ErrorKind, Read, Write};
 use std::path::Path;
 
 use abbe_study::hash;
@@ -33,8 +33,8 @@ pub(super) fn is_ours(file: &Path) -> io::Result<bool> {
         return Ok(false);
     }
     let line = line(file, &hash::reader(File::open(file)?)?);
-    let record = fs::read(parent(file).join(NAME))?;
-    Ok(String::from_utf8_lossy(&record).lines().any(|known| known == line))
+    let record = read(&File::open(parent(file).join(NAME))?, File::lock_shared)?;
+    Ok(record.lines().any(|known| known == line))
 }
 
 /// Adds an entry for a file with this SHA-256 to the record of its folder.
@@ -44,10 +44,7 @@ pub(super) fn add(file: &Path, hash: &str) -> io::Result<()> {
         return Err(io::Error::other(format!("{NAME} is not a regular file")));
     }
     let mut record = File::options().read(true).append(true).create(true).open(path)?;
-    lock(&record)?;
-    let mut known = Vec::new();
-    record.read_to_end(&mut known)?;
-    let (known, line) = (String::from_utf8_lossy(&known), line(file, hash));
+    let (known, line) = (read(&record, File::lock)?, line(file, hash));
     if known.lines().any(|known| known == line) {
         return Ok(());
     }
@@ -59,13 +56,14 @@ pub(super) fn add(file: &Path, hash: &str) -> io::Result<()> {
     record.write_all(format!("{before}{line}\n").as_bytes())
 }
 
-/// Waits until no other run reads or appends; dropping the file unlocks it. Without the lock a run
-/// may read half of the line that another one appends. A file system without locks has none.
-fn lock(record: &File) -> io::Result<()> {
-    match record.lock() {
-        Err(error) if error.kind() == io::ErrorKind::Unsupported => Ok(()),
-        result => result,
-    }
+/// Waits until no other run appends, and reads; dropping the file unlocks it. Without the lock a run
+/// may read half of the line that another one appends, and on Windows it could not read meanwhile. A
+/// file system without locks has none.
+fn read(mut record: &File, lock: fn(&File) -> io::Result<()>) -> io::Result<String> {
+    lock(record).or_else(|error| if error.kind() == ErrorKind::Unsupported { Ok(()) } else { Err(error) })?;
+    let mut known = Vec::new();
+    record.read_to_end(&mut known)?;
+    Ok(String::from_utf8_lossy(&known).into_owned())
 }
 
 fn line(file: &Path, hash: &str) -> String {
