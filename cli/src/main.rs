@@ -55,7 +55,7 @@ use output::{Outcome, Outputs};
 /// Files that abbe wrote, and that have not been changed since, are replaced; other files only with
 /// `--force`. `-` is stdout.
 #[derive(Debug, Parser)]
-#[command(name = "abbe", version = env!("ABBE_VERSION"), after_help = after_help!(
+#[command(name = "abbe", bin_name = "abbe", version = env!("ABBE_VERSION"), after_help = after_help!(
     "  abbe analyze pps                rank the error sources
   abbe check arm.toml             check the spec, show the model
   abbe jacobian puma560 --q 0,-45deg,0,0,30deg,0
