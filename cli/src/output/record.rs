@@ -56,9 +56,9 @@ pub(super) fn add(file: &Path, hash: &str) -> io::Result<()> {
     record.write_all(format!("{before}{line}\n").as_bytes())
 }
 
-/// Waits until no other run appends, and reads; dropping the file unlocks it. Without the lock a run
-/// may read half of the line that another one appends, and on Windows it could not read meanwhile. A
-/// file system without locks has none.
+/// Waits until no other run appends, and reads; dropping the file unlocks it. Without the lock a
+/// run may read half of the line that another one appends, and on Windows it could not read
+/// meanwhile. A file system without locks has none.
 fn read(mut record: &File, lock: fn(&File) -> io::Result<()>) -> io::Result<String> {
     lock(record).or_else(|error| if error.kind() == ErrorKind::Unsupported { Ok(()) } else { Err(error) })?;
     let mut known = Vec::new();
