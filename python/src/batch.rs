@@ -71,7 +71,6 @@ impl Batch<'_> {
     fn run(&self, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
         match *arguments {
             [q, s, errors] if self.is_product() => {
-                checks::finite(Quantity::Errors, errors)?;
                 let pose = self.interpreter.displaced_pose(q, s, errors.as_chunks().0)?;
                 Ok(pose.0.concat())
             }

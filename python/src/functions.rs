@@ -1,6 +1,6 @@
 //! Evaluation of a function of a machine with arguments from Python.
 
-use abbe::{Description, Function, Manipulator, Quantity, function::Array};
+use abbe::{Description, Error, Function, Manipulator, Quantity, function::Array};
 use abbe_study::{mistake, options::quantity};
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -67,11 +67,12 @@ impl Machine {
                 let given = vec_of(numbers(value, name, None)?, name, &signature.arguments[2], description)?;
                 // Sources have errors, too: what is not finite here is no fault of theirs.
                 if let Some(at) = given.values.slice()?.iter().position(|value| !value.is_finite()) {
-                    let width = signature.arguments[2].len(description);
-                    let (row, at) = (at / width, at % width);
-                    return Err(PyValueError::new_err(format!(
-                        "`{name}` of configuration {row} is not finite, at {at}"
-                    )));
+                    let argument = &signature.arguments[2];
+                    let (row, index) = (at / argument.len(description), at % argument.len(description));
+                    let of_each = !given.lead.is_empty();
+                    let at = of_each.then(|| format!("at configuration {row}: ")).unwrap_or_default();
+                    let error = Error::NotFinite { quantity: argument.quantity, index };
+                    return Err(PyValueError::new_err(at + &mistake::named(&error, description)));
                 }
                 Some(given)
             }

@@ -309,5 +309,5 @@ def test_errors_that_are_not_finite_are_named(name):
     pps = abbe.load("pps")
     errors = np.zeros((3, len(pps.columns)))
     errors[1, 7] = np.nan
-    with pytest.raises(ValueError, match="`errors` of configuration 1 is not finite, at 7"):
+    with pytest.raises(ValueError, match="at configuration 1: generalized error `e_y2` is not a finite number"):
         getattr(pps, name)(pps.home, errors)

@@ -41,7 +41,7 @@ pub fn not_evaluated(what: impl Display, at: &str, error: &Error, description: &
 
 /// Describes an error with the name of the value that it counts: "joint variable q4 is not a finite
 /// number".
-fn named(error: &Error, description: &Description) -> String {
+pub fn named(error: &Error, description: &Description) -> String {
     let (quantity, index) = match *error {
         Error::NotFinite { quantity, index } => (quantity, index),
         Error::OutOfRange { input, .. } => (Quantity::Inputs, input),
