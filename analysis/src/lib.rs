@@ -63,7 +63,7 @@ pub use abbe_kinematics::*;
 pub use allocation::{Allocation, AllocationCriterion, Allocator, ErrorRow, ScalableSource};
 pub use budget::{
     Budget, BudgetOptions, BudgetSweep, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, Gap,
-    OrientationErrors, PartialBudget, SourceErrors, Watch, covariance, error_budget, variance,
+    OrientationErrors, PartialBudget, SourceErrors, Watch, comparable, covariance, error_budget, variance,
 };
 pub use identifiable::{
     Identifiability, Measurement, Parts, RANK_THRESHOLD, identifiable, identifiable_in_parts,

@@ -2,12 +2,12 @@
 
 use super::Ellipsoid;
 use super::over_signs::OverSignsAccumulator;
-use super::peak::{self, Peak};
+use super::peak::{self, Peak, comparable};
 use super::sums::{SourceKinds, Sums};
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
 
-/// Largest value over the workspace, and its configuration.
+/// Largest value over the workspace, and the first configuration with a [`comparable`] one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extreme {
@@ -20,9 +20,22 @@ pub struct Extreme {
 impl Extreme {
     /// Takes in the value at a configuration.
     pub fn add(&mut self, index: usize, value: f64) {
-        if self.configuration.is_none() || value > self.value {
+        if self.configuration.is_none() {
             *self = Self { value, configuration: Some(index) };
+        } else if comparable(value * value) > comparable(self.value * self.value) {
+            self.configuration = Some(index);
         }
+        self.value = self.value.max(value);
+    }
+
+    /// Returns the root of the largest square.
+    pub(super) fn root(self) -> Self {
+        Self { value: self.value.max(0.0).sqrt(), ..self }
+    }
+
+    /// Takes in the largest value of the following configurations.
+    pub fn merge(&mut self, other: &Self) {
+        other.configuration.into_iter().for_each(|index| self.add(index, other.value));
     }
 }
 
@@ -66,8 +79,9 @@ pub struct Combined {
     pub ellipsoid: Ellipsoid,
 }
 
-/// Relative difference below which largest eigenvalues count as equal.
-const ALIKE: f64 = 1e-9;
+/// Relative difference of two variances whose [`comparable`] deviations are equal, if one of them
+/// is that of a comparable deviation itself.
+const ALIKE: f64 = 7e-9;
 
 impl Combined {
     /// Merges the figures of other configurations, except for the root mean squares.
@@ -79,9 +93,7 @@ impl Combined {
             (&mut self.standard_radius, &other.standard_radius),
             (&mut self.worst_case_radius, &other.worst_case_radius),
         ] {
-            if let Some(index) = other.configuration {
-                here.add(index, other.value);
-            }
+            here.merge(other);
         }
         for (here, other) in [
             (&mut self.repeatable, other.repeatable),
@@ -91,9 +103,7 @@ impl Combined {
         ] {
             *here = core::array::from_fn(|i| here[i].max(other[i]));
         }
-        if other.ellipsoid.principal.deviations[0] > self.ellipsoid.principal.deviations[0] {
-            self.ellipsoid = other.ellipsoid;
-        }
+        self.ellipsoid.add(&other.ellipsoid);
     }
 
     /// Returns the indices of the configurations in the result.
@@ -143,17 +153,18 @@ impl<R: Register> CombinedAccumulator<R> {
     #[inline(always)]
     pub(super) fn add(&mut self, sums: &Sums<R>, rows: &[Lanes<R>], index: impl Fn(usize) -> usize) {
         let &Sums { place, weight, .. } = sums;
-        self.repeatable_square.add(sums.repeatable_square, place);
-        self.random_square.add(sums.random_square, place);
+        self.repeatable_square.add(sums.repeatable_square, sums.repeatable_square, place);
+        self.random_square.add(sums.random_square, sums.random_square, place);
         let norms = [sums.repeatable_norm, sums.random_norm, sums.radius];
-        self.radius.add(sums.radius, place);
+        self.radius.add(sums.radius, sums.radius * sums.radius, place);
         self.over_signs.add(rows, sums);
         for (sum, norm) in self.squares.iter_mut().zip(norms) {
             *sum = (norm * norm).mul_add(weight, *sum);
         }
         let covariance = &sums.covariance;
         let diagonal = [covariance[0], covariance[1], covariance[2]];
-        self.trace.add(diagonal[0] + diagonal[1] + diagonal[2], place);
+        let trace = diagonal[0] + diagonal[1] + diagonal[2];
+        self.trace.add(trace, trace, place);
         #[expect(clippy::needless_range_loop, reason = "four arrays go side by side")]
         for i in 0..3 {
             self.repeatable[i] = sums.repeatable[i].abs().max(self.repeatable[i]);
@@ -162,6 +173,7 @@ impl<R: Register> CombinedAccumulator<R> {
             self.worst_case[i] = sums.worst_case[i].max(self.worst_case[i]);
         }
         let [longest, ..] = self.ellipsoid.principal.deviations;
+        let longest = comparable(longest);
         let minor = least_minor(covariance, longest * longest * (1.0 + ALIKE));
         // Without random errors all are 0, and the ellipsoid is unchanged.
         if Lanes::constant(0.0).more_than(minor).any() {
@@ -182,34 +194,24 @@ impl<R: Register> CombinedAccumulator<R> {
                 [xy[lane], yy[lane], yz[lane]],
                 [xz[lane], yz[lane], zz[lane]],
             ];
-            let other = Ellipsoid::new(covariance, index(*place as usize));
-            if other.principal.deviations[0] > self.ellipsoid.principal.deviations[0] {
-                self.ellipsoid = other;
-            }
+            self.ellipsoid.add(&Ellipsoid::new(covariance, index(*place as usize)));
         }
     }
 
     /// Returns the partial result, with indices of configurations, and the sums of squares of the
     /// three norms.
     pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (Combined, [f64; 3]) {
-        let place = |found: Option<(f64, usize)>| {
-            let (value, configuration) =
-                found.map(|(value, place)| (value, Some(index(place)))).unwrap_or_default();
-            Extreme { value, configuration }
-        };
-        let extreme =
-            |peak: Peak<R>, f: fn(f64) -> f64| place(peak.finish().map(|(value, place)| (f(value), place)));
         let roots = |largest: [Lanes<R>; 3]| largest.map(|square| peak::largest(square).sqrt());
         let combined = Combined {
-            repeatable_radius: extreme(self.repeatable_square, f64::sqrt),
-            random_radius: extreme(self.random_square, f64::sqrt),
-            radius: extreme(self.radius, |radius| radius),
+            repeatable_radius: self.repeatable_square.finish(&index).root(),
+            random_radius: self.random_square.finish(&index).root(),
+            radius: self.radius.finish(&index),
             repeatable: self.repeatable.map(peak::largest),
             random: roots(self.random),
             standard_deviation: roots(self.variance),
-            standard_radius: extreme(self.trace, f64::sqrt),
+            standard_radius: self.trace.finish(&index).root(),
             worst_case: self.worst_case.map(peak::largest),
-            worst_case_radius: place(self.over_signs.finish()),
+            worst_case_radius: self.over_signs.found.finish(&index),
             ellipsoid: self.ellipsoid,
             ..Combined::default()
         };

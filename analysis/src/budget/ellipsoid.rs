@@ -1,5 +1,6 @@
 //! Covariance of the error of the tool point, and its 95 % ellipsoid.
 
+use super::comparable;
 use crate::{Measurand, Principal};
 use abbe_core::{Distribution, Source};
 
@@ -48,6 +49,13 @@ pub struct Ellipsoid {
 }
 
 impl Ellipsoid {
+    /// Takes in the ellipsoid at a later configuration, and keeps the longer one.
+    pub(super) fn add(&mut self, other: &Self) {
+        if comparable(other.principal.deviations[0]) > comparable(self.principal.deviations[0]) {
+            *self = *other;
+        }
+    }
+
     /// Creates the ellipsoid of a covariance at a configuration.
     pub fn new(covariance: [[f64; 3]; 3], configuration: usize) -> Self {
         let principal = Principal::new(covariance);

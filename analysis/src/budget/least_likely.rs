@@ -1,7 +1,8 @@
 //! Configurations at which a tolerance is least likely to be met, and the one with the largest
 //! error at 95 %, by a fast approximation.
 
-use super::{combined::Extreme, peak::Peak, sums::Sums};
+use super::peak::{Peak, comparable};
+use super::{combined::Extreme, sums::Sums};
 use crate::normal::ONE_SIDED_95;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
@@ -21,7 +22,7 @@ const NONE: f64 = 1e-24;
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct LeastLikely {
-    /// Distances and indices, the smallest distance first.
+    /// [`comparable`] distances and indices, the smallest distance first.
     kept: Vec<(f64, usize)>,
     /// Largest norm that 5 % of the errors exceed.
     farthest: Extreme,
@@ -29,6 +30,7 @@ pub(super) struct LeastLikely {
 
 impl LeastLikely {
     fn add(&mut self, deviations: f64, index: usize) {
+        let deviations = comparable(deviations);
         let after = self.kept.partition_point(|kept| (kept.0, kept.1) < (deviations, index));
         if after < KEPT {
             self.kept.truncate(KEPT - 1);
@@ -39,9 +41,7 @@ impl LeastLikely {
     /// Merges the result of other configurations.
     pub(super) fn merge(&mut self, other: &Self) {
         other.kept.iter().for_each(|(deviations, index)| self.add(*deviations, *index));
-        if let Some(index) = other.farthest.configuration {
-            self.farthest.add(index, other.farthest.value);
-        }
+        self.farthest.merge(&other.farthest);
     }
 
     /// Returns the indices of the configurations.
@@ -86,7 +86,8 @@ impl<R: Register> LeastLikelyAccumulator<R> {
         let middle = (mean - variance / (number(4.0) * mean)).max(number(0.0)).sqrt();
         let deviations = (number(self.tolerance) - middle) * two * (mean / variance).sqrt();
         let half = number(ONE_SIDED_95 / 2.0);
-        self.farthest.add((variance / mean).sqrt().mul_add(half, middle), sums.place);
+        let farthest = (variance / mean).sqrt().mul_add(half, middle);
+        self.farthest.add(farthest, farthest * farthest, sums.place);
         let most = self.least.kept.get(KEPT - 1).map_or(f64::INFINITY, |(most, _)| *most);
         if number(most).more_than(deviations).any() {
             self.keep(deviations.as_slice(), sums, &index);
@@ -106,8 +107,6 @@ impl<R: Register> LeastLikelyAccumulator<R> {
 
     /// Returns the partial result. `index` maps places to indices of configurations.
     pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> LeastLikely {
-        let farthest = self.farthest.finish().map(|(value, place)| (value, Some(index(place))));
-        let (value, configuration) = farthest.unwrap_or_default();
-        LeastLikely { farthest: Extreme { value, configuration }, ..self.least }
+        LeastLikely { farthest: self.farthest.finish(index), ..self.least }
     }
 }

@@ -19,4 +19,5 @@ pub use budget_sweep::{BudgetSweep, Gap, PartialBudget, error_budget};
 pub use combined::{Combined, Extreme};
 pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use error_budget::{Budget, BudgetOptions, OrientationErrors, Watch};
+pub use peak::comparable;
 pub use source_errors::{Figures, SourceErrors};

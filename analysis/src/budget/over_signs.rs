@@ -19,7 +19,8 @@ pub(super) struct OverSignsAccumulator<R: Register> {
     /// First rows of the sources of unknown sign that are errors of their own, and what makes them
     /// distinct.
     unknown: Vec<(usize, [f64; 3])>,
-    found: Peak<R>,
+    /// Largest worst case.
+    pub(super) found: Peak<R>,
     /// Largest value in any lane.
     most: f64,
     /// Errors of these sources in a tile, and slightly different ones.
@@ -45,13 +46,13 @@ impl<R: Register> OverSignsAccumulator<R> {
         let simple = sums.repeatable_norm + sums.random_norms;
         let bound = (peak::square(sums.worst_case).sqrt() + sums.with_parts).min(simple);
         if self.unknown.is_empty() {
-            self.found.add(simple, sums.place);
+            self.found.add(simple, simple * simple, sums.place);
         } else if peak::largest(bound) > self.most {
             let longest =
                 if self.unknown.len() > PAIRS { self.apart(rows, sums) } else { self.pairs(rows, sums) };
             let worst = longest + sums.with_parts;
             self.most = self.most.max(peak::largest(worst));
-            self.found.add(worst, sums.place);
+            self.found.add(worst, worst * worst, sums.place);
         }
     }
 
@@ -104,11 +105,6 @@ impl<R: Register> OverSignsAccumulator<R> {
             let vectors: Vec<[f64; 3]> = self.unknown.iter().map(vector).collect();
             norm(worst_case(sums.repeatable.each_ref().map(at), &vectors))
         })
-    }
-
-    /// Returns the largest worst case and its place.
-    pub(super) fn finish(self) -> Option<(f64, usize)> {
-        self.found.finish()
     }
 }
 

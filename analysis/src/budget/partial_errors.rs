@@ -28,9 +28,7 @@ impl SampleErrors {
             return;
         }
         let other = Ellipsoid::new(covariance(sources, row.sources, self.measurand), row.index);
-        if other.principal.deviations[0] > self.ellipsoid.principal.deviations[0] {
-            self.ellipsoid = other;
-        }
+        self.ellipsoid.add(&other);
     }
 
     /// Returns the initial values of every chunk of a workspace.
@@ -122,7 +120,7 @@ impl PartialErrors {
 
     /// Returns the indices of the configurations in the result.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
-        let worst = self.tallies.iter().filter_map(|errors| errors.worst);
+        let worst = self.tallies.iter().filter_map(|errors| errors.norm.configuration);
         worst.chain(self.combined.indices()).chain(self.least_likely.indices())
     }
 }

@@ -1,38 +1,58 @@
-//! Maximum per lane, with its place.
+//! Maximum per lane, with its place; of equal values, the first.
 
+use super::Extreme;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
 
-/// Largest value in every lane, and the place of the first configuration with it.
+/// Rounds an error to 26 significant bits, by which those of two configurations are compared.
+///
+/// Errors that differ only by rounding, such as those of a machine that turns about its base, are
+/// equal then, and the first configuration counts as the worst on every processor. See Dekker, "A
+/// floating-point technique for extending the available precision" (1971), for the split.
+#[inline(always)]
+pub fn comparable<S: Scalar>(error: S) -> S {
+    let scaled = error * S::constant(134_217_729.0);
+    scaled - (scaled - error)
+}
+
+/// Largest value in every lane, and the place of the first configuration with a
+/// [`comparable`] one.
 #[derive(Clone, Copy)]
 pub(super) struct Peak<R: Register> {
     value: Lanes<R>,
+    compared: Lanes<R>,
     place: Lanes<R>,
 }
 
 impl<R: Register> Peak<R> {
     #[inline(always)]
     pub(super) fn none() -> Self {
-        Self { value: Lanes::constant(f64::NEG_INFINITY), place: Lanes::constant(-1.0) }
+        let none = Lanes::constant(f64::NEG_INFINITY);
+        Self { value: none, compared: none, place: Lanes::constant(-1.0) }
     }
 
+    /// Adds the value at a place. Norms are compared by their squares, as [`Extreme`] does it.
     #[inline(always)]
-    pub(super) fn add(&mut self, value: Lanes<R>, place: Lanes<R>) {
-        let more = value.more_than(self.value);
-        self.value = more.select(value, self.value);
+    pub(super) fn add(&mut self, value: Lanes<R>, square: Lanes<R>, place: Lanes<R>) {
+        let compared = comparable(square);
+        let more = compared.more_than(self.compared);
+        self.value = value.max(self.value);
+        self.compared = more.select(compared, self.compared);
         self.place = more.select(place, self.place);
     }
 
-    /// Returns the largest value of all lanes and its place, the first of several. Returns `None`
-    /// if nothing was added.
+    /// Returns the largest value of all lanes, and the index of the first place with a comparable
+    /// one.
     #[inline(always)]
-    pub(super) fn finish(self) -> Option<(f64, usize)> {
-        let lanes = self.value.as_slice().iter().zip(self.place.as_slice());
-        let best = lanes.fold(None, |best: Option<(f64, f64)>, (&value, &place)| match best {
-            Some(best) if best.0 > value || best.0 == value && best.1 < place => Some(best),
-            _ => Some((value, place)),
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Extreme {
+        let lanes = self.compared.as_slice().iter().zip(self.place.as_slice());
+        let best = lanes.fold((f64::NEG_INFINITY, -1.0), |best, (&value, &place)| {
+            if best.0 > value || best.0 == value && best.1 < place { best } else { (value, place) }
         });
-        best.filter(|best| best.1 >= 0.0).map(|(value, place)| (value, place as usize))
+        if best.1 < 0.0 {
+            return Extreme::default();
+        }
+        Extreme { value: largest(self.value), configuration: Some(index(best.1 as usize)) }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Errors of a single source over the workspace, in three metrics.
 
+use super::Extreme;
 use super::peak::{self, Peak};
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};
@@ -62,8 +63,8 @@ pub struct SourceErrors {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct PartialSourceErrors {
     least: [f64; 3],
-    largest: [f64; 4],
-    pub(super) worst: Option<usize>,
+    largest: [f64; 3],
+    pub(super) norm: Extreme,
     relative: f64,
 }
 
@@ -71,14 +72,12 @@ impl PartialSourceErrors {
     /// Creates the result of no configurations.
     pub(super) fn new() -> Self {
         // Finite, so that JSON can represent them.
-        Self { least: [f64::MAX; 3], largest: [f64::MIN; 4], worst: None, relative: 0.0 }
+        Self { least: [f64::MAX; 3], largest: [f64::MIN; 3], norm: Extreme::default(), relative: 0.0 }
     }
 
     /// Merges the result of the following configurations.
     pub(super) fn merge(&mut self, other: &Self) {
-        if other.largest[3] > self.largest[3] {
-            self.worst = other.worst;
-        }
+        self.norm.merge(&other.norm);
         for (least, other) in self.least.iter_mut().zip(other.least) {
             *least = least.min(other);
         }
@@ -91,14 +90,14 @@ impl PartialSourceErrors {
     /// Completes the figures of a source, given its error (or bound) at home and their mean
     /// square.
     pub(super) fn finish(self, source: usize, class: Class, home: [f64; 3], square: f64) -> SourceErrors {
-        let Self { least, largest, worst, relative } = self;
+        let Self { least, largest, norm: Extreme { value, configuration: worst }, relative } = self;
         let none = Figures::default();
         let (plain_max, half_peak_to_peak, relative_to_home) = if worst.is_none() {
             (none, none, none)
         } else {
             // The absolute value avoids −0.
             let plain = |i: usize| largest[i].max(-least[i]).abs();
-            let plain_max = Figures::from([plain(0), plain(1), plain(2), largest[3]]);
+            let plain_max = Figures::from([plain(0), plain(1), plain(2), value]);
             let half = |i: usize| (largest[i] - least[i]) / 2.0;
             // The difference of two draws `t b(q) − t' b(home)` is largest for t and t' = ±1.
             let [x, y, z] = core::array::from_fn(|i| match class {
@@ -153,7 +152,7 @@ impl<R: Register> SourceErrorsAccumulator<R> {
             *largest = row.max(*largest);
         }
         let square = peak::square(here);
-        self.square.add(square, place);
+        self.square.add(square, square, place);
         self.squares = square.mul_add(weight, self.squares);
         let differences = core::array::from_fn(|i| here[i] - self.home[i]);
         self.relative = peak::square(differences).max(self.relative);
@@ -166,14 +165,15 @@ impl<R: Register> SourceErrorsAccumulator<R> {
     /// Returns the partial result, with the index of the worst configuration, and the sum of the
     /// squared norms.
     pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (PartialSourceErrors, f64) {
-        let Some((square, place)) = self.square.finish() else { return (PartialSourceErrors::new(), 0.0) };
-        let [a, b, c] = self.largest.map(peak::largest);
-        let root = |square: f64| square.max(0.0).sqrt();
+        let norm = self.square.finish(index).root();
+        if norm.configuration.is_none() {
+            return (PartialSourceErrors::new(), 0.0);
+        }
         let tally = PartialSourceErrors {
             least: self.least.map(peak::least),
-            largest: [a, b, c, root(square)],
-            worst: Some(index(place)),
-            relative: root(peak::largest(self.relative)),
+            largest: self.largest.map(peak::largest),
+            norm,
+            relative: peak::largest(self.relative).sqrt(),
         };
         (tally, peak::sum(self.squares))
     }

@@ -18,6 +18,7 @@ use abbe_analysis::sampling::{norm, stream};
 
 /// Correlation of residuals with time.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Drift {
     /// Autocorrelation of the residuals of consecutive rows.
     pub lag_1: f64,

@@ -8,6 +8,7 @@ use super::{Action, Program};
 
 /// Operations of a program, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Operations {
     /// Multiplications.
     pub mul: usize,

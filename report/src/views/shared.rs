@@ -127,15 +127,15 @@ pub(super) fn residual_verdict(factor: f64, p: f64, missing: &str, or: &str) -> 
 
 /// States the drift of residuals: the first clause, and the rest.
 pub(super) fn drift_clauses(drift: &ResidualDrift, unit: LengthUnit) -> [String; 2] {
-    let lag = digits(drift.lag_1, 2);
-    let what = match drift.follows {
+    let lag = digits(drift.found.lag_1, 2);
+    let what = match drift.found.follows {
         "distance" => "their distance".to_owned(),
         axis => format!("along {axis}"),
     };
-    let by = length(drift.change.abs(), unit);
-    let [first, last] = drift.ends.map(|end| length(end, unit));
+    let by = length(drift.found.change.abs(), unit);
+    let [first, last] = drift.found.ends.map(|end| length(end, unit));
     let ends = format!("Mean error of the first tenth of the rows {first}, of the last {last}.");
-    let [summary, rest] = match (drift.is_drift, drift.settling) {
+    let [summary, rest] = match (drift.is_drift, drift.found.settling) {
         (true, Some(share)) => [
             format!(
                 "The residuals may settle with time, {what} by {by} with a time constant of {} of the run",
@@ -150,7 +150,7 @@ pub(super) fn drift_clauses(drift: &ResidualDrift, unit: LengthUnit) -> [String;
             format!("The residuals may drift with time, {what} by {by} from the first row to the last"),
             format!(". {ends}"),
         ],
-        (false, _) if drift.p_of_lag_1 <= drift.false_alarms => [
+        (false, _) if drift.found.p_of_lag_1 <= drift.false_alarms => [
             format!("The residuals show no drift, but successive rows are correlated ({lag})"),
             ": the machine may have errors that the model does not have and that change slowly along the \
              measured path. Standard deviations may be too small."

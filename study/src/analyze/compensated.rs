@@ -2,7 +2,7 @@
 //! largest, and at which a tolerance is least likely to be met.
 
 use abbe::analysis::{Correction, ErrorDistribution, Extreme, Measurand, Subset, Sweepable, Unevaluated};
-use abbe::analysis::{Workspace, sweep};
+use abbe::analysis::{Workspace, comparable, sweep};
 
 /// Largest number of configurations at which the compensated machine, or the yield, is evaluated.
 pub(super) const CHECKED: usize = 10_000;
@@ -81,6 +81,7 @@ impl CompensatedExtremes {
         self.is_bounded &= error.is_bounded();
         let Some(tolerance) = tolerance else { return };
         let [farthest, deviations] = error.approximate(tolerance);
+        let deviations = comparable(deviations);
         self.farthest.add(index, farthest);
         let after = self.least_likely.partition_point(|kept| kept.0 <= deviations);
         if after < KEPT {

@@ -1,6 +1,6 @@
 //! Largest errors of balls, discs and a calibration over a workspace: their parts as one source.
 
-use abbe::analysis::{Budget, ErrorParts, Figures, Measurand, Row, SourceErrors};
+use abbe::analysis::{Budget, ErrorParts, Extreme, Figures, Measurand, Row, SourceErrors};
 use serde::{Deserialize, Serialize};
 
 /// Largest errors of each error with several parts over some configurations, of position and
@@ -12,8 +12,7 @@ pub(super) struct LargestWithParts(Vec<[Largest; 2]>);
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Largest {
     rows: [f64; 3],
-    norm: f64,
-    worst: Option<usize>,
+    norm: Extreme,
 }
 
 impl LargestWithParts {
@@ -33,7 +32,8 @@ impl LargestWithParts {
             for (measurand, largest) in Measurand::ALL.into_iter().zip(largest) {
                 if measurand == Measurand::Position || row.oriented {
                     let (rows, norm) = parts.largest(own[0], row.sources, measurand);
-                    largest.merge(&Largest { rows, norm, worst: Some(row.index) });
+                    let norm = Extreme { value: norm, configuration: Some(row.index) };
+                    largest.merge(&Largest { rows, norm });
                 }
             }
         }
@@ -48,7 +48,8 @@ impl LargestWithParts {
     /// Returns whether the errors can belong to these parts and a workspace of this size. They may
     /// come from a file.
     pub(super) fn fits(&self, parts: &ErrorParts, configurations: usize) -> bool {
-        let in_workspace = |largest: &Largest| largest.worst.is_none_or(|index| index < configurations);
+        let in_workspace =
+            |largest: &Largest| largest.norm.configuration.is_none_or(|index| index < configurations);
         self.0.len() == parts.with_parts().count() && self.0.as_flattened().iter().all(in_workspace)
     }
 
@@ -67,9 +68,7 @@ impl LargestWithParts {
 
 impl Largest {
     fn merge(&mut self, other: &Self) {
-        if self.worst.is_none() || other.norm > self.norm {
-            (self.norm, self.worst) = (other.norm, other.worst.or(self.worst));
-        }
+        self.norm.merge(&other.norm);
         self.rows = std::array::from_fn(|i| self.rows[i].max(other.rows[i]));
     }
 
@@ -78,7 +77,7 @@ impl Largest {
             parts.iter().map(|part| figure(&sources[*part]).powi(2)).sum::<f64>().sqrt()
         };
         let [x, y, z] = self.rows;
-        let plain_max = Figures { x, y, z, norm: self.norm };
+        let plain_max = Figures { x, y, z, norm: self.norm.value };
         SourceErrors {
             plain_max,
             half_peak_to_peak: plain_max,
@@ -89,8 +88,8 @@ impl Largest {
                 z: root(&|part| part.relative_to_home.z),
                 norm: root(&|part| part.relative_to_home.norm),
             },
-            rms: root(&|part| part.rms).min(self.norm),
-            worst: self.worst,
+            rms: root(&|part| part.rms).min(self.norm.value),
+            worst: self.norm.configuration,
             ..sources[parts[0]]
         }
     }

@@ -113,22 +113,8 @@ pub struct Source {
 pub struct FunctionOperations {
     /// Name of the function.
     pub function: &'static str,
-    /// Multiplications.
-    pub mul: usize,
-    /// Additions and subtractions.
-    pub add: usize,
-    /// Negations.
-    pub neg: usize,
-    /// Divisions.
-    pub div: usize,
-    /// Sine–cosine pairs.
-    pub sincos: usize,
-    /// Square roots.
-    pub sqrt: usize,
-    /// Other operations.
-    pub other: usize,
-    /// Counts in displayable form.
-    #[serde(skip)]
+    /// Operations, by kind.
+    #[serde(flatten)]
     pub operations: Operations,
 }
 
@@ -203,10 +189,10 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 fn operations(routines: &Routines) -> Vec<FunctionOperations> {
-    let counted = routines.list.iter().filter(|routine| routine.function.is_some()).map(|routine| {
-        let operations = routine.operations;
-        let Operations { mul, add, neg, div, sincos, sqrt, other } = operations;
-        FunctionOperations { function: routine.name, mul, add, neg, div, sincos, sqrt, other, operations }
-    });
+    let counted = routines
+        .list
+        .iter()
+        .filter(|routine| routine.function.is_some())
+        .map(|routine| FunctionOperations { function: routine.name, operations: routine.operations });
     counted.collect()
 }

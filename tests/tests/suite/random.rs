@@ -3,10 +3,12 @@
 use abbe::Manipulator;
 use abbe::analysis::sampling::{halton, norm};
 use abbe::analysis::{
-    BudgetOptions, Configuration, MonteCarlo, Row, error_budget, joint_samples, monte_carlo, worst_case,
+    BudgetOptions, Configuration, Measurand, MonteCarlo, Row, error_budget, joint_samples, listed,
+    monte_carlo, worst_case,
 };
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_tests::chains::random_arm;
 
 /// Returns an arm of two joints with the sources at its end.
 fn arm(sources: &str) -> Spec {
@@ -188,5 +190,49 @@ fn the_worst_case_of_a_sweep_is_the_largest_over_all_signs() {
         let budget = error_budget(&robot, &workspace, BudgetOptions::default(), &mut rows).unwrap();
         let found = budget.combined.worst_case_radius.value;
         assert!((found / largest - 1.0).abs() < 1e-8, "{count}: {found}, not {largest}");
+    }
+}
+
+/// A turn of the whole machine about the base changes no norm of an error: of the configurations
+/// that differ by it, the first is named as the worst, whatever their roundings are.
+#[test]
+fn of_equally_bad_configurations_the_first_is_named() {
+    const TURNS: [f64; 7] = [0.0, 0.1, 0.7, -1.3, 2.0, -2.9, 1e-3];
+    const COUNT: usize = 60;
+    for index in 0..60 {
+        let arm = random_arm(index);
+        let frames = arm.matches("[[frame]]").count();
+        let turntable = "[[frame]]\nname = \"turntable\"\n\
+                         variable = { name = \"turn\", kind = \"revolute\", limits = [-3, 3] }\n\
+                         transform = \"Rz(turn)\"\n";
+        let mut text = arm.replacen("[[frame]]", &format!("{turntable}[[frame]]"), 1);
+        for (n, class) in ["repeatable", "tolerance", "random", "random"].into_iter().enumerate() {
+            let kind = ["", "", "distribution = \"uniform\"\n", "distribution = \"normal\"\n"][n];
+            let frame = 1 + (n * 5 + index as usize) % frames;
+            text += &format!(
+                "[[source]]\nname = \"{n}\"\nclass = \"{class}\"\n{kind}frame = \"frame {frame}\"\n\
+                 e_x = \"{} mm\"\ne_s = \"0.{n}3 mrad\"\ne_p = \"0.2 mrad\"\ne_z = \"0.07 mm\"\n",
+                n + 1
+            );
+        }
+        let robot = Interpreter::new(Spec::parse(&format!("arm {index}"), &text).unwrap());
+        let home = Configuration::home(robot.description());
+        let configurations = TURNS.iter().flat_map(|turn| (0..COUNT).map(move |n| (turn, n)));
+        let configurations = configurations.map(|(turn, n)| {
+            let joint = |i: usize| if i == 0 { *turn } else { 4.0 * halton(1 + n, i - 1) - 2.0 };
+            Configuration { q: (0..home.q.len()).map(joint).collect(), ..home.clone() }
+        });
+        let workspace = listed(&robot, configurations.collect()).unwrap();
+        let options = BudgetOptions { tolerances: [Some(5e-3), Some(1e-3)] };
+        let budget = error_budget(&robot, &workspace, options, &mut ()).unwrap();
+        assert_eq!(budget.configurations, TURNS.len() * COUNT, "{index}");
+        for (measurand, likely) in
+            [Measurand::Position, Measurand::Orientation].into_iter().zip(&budget.least_likely)
+        {
+            let (sources, combined) = budget.errors(measurand);
+            let worst = sources.iter().filter_map(|source| source.worst).chain(combined.indices());
+            let worst: Vec<usize> = worst.chain(likely.first().copied()).collect();
+            assert!(worst.iter().all(|index| *index < COUNT), "{index}, {measurand:?}: {worst:?}");
+        }
     }
 }

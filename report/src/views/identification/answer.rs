@@ -193,7 +193,7 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
         report.test.as_ref().and_then(|test| overlap_warning(report.test_rows_of_the_fit, test.rows));
     facts.extend(overlap.map(|sentence| ("Overlap", sentence)));
     facts.extend(extrapolation(report).map(|sentence| ("Outside", sentence)));
-    let is_found = |drift: &&ResidualDrift| drift.is_drift || drift.p_of_lag_1 <= drift.false_alarms;
+    let is_found = |drift: &&ResidualDrift| drift.is_drift || drift.found.p_of_lag_1 <= drift.false_alarms;
     let drift = report.drift.iter().filter(is_found);
     facts.extend(
         drift.map(|drift| ("Drift", format!("{}; see {FULL}", drift_clauses(drift, spec.length)[0]))),

@@ -1,6 +1,6 @@
 //! Smallest and largest errors in a bin, and the worst configuration.
 
-use abbe::analysis::Configuration;
+use abbe::analysis::{Configuration, comparable};
 use serde::{Deserialize, Serialize};
 
 use super::bins::{Bins, Merge, listed};
@@ -72,7 +72,7 @@ impl Extremes {
             range.add(repeatable + random);
         }
         let norm = errors.norm();
-        if self.worst.as_ref().is_none_or(|worst| norm > worst.norm) {
+        if self.worst.as_ref().is_none_or(|worst| comparable(norm) > comparable(worst.norm)) {
             self.worst = Some(Worst { norm, configuration: configuration.clone() });
         }
     }
@@ -84,7 +84,7 @@ impl Merge for Extremes {
         for (range, other) in self.errors.iter_mut().zip(other.errors) {
             range.merge(other);
         }
-        let norm = |worst: &Option<Worst>| worst.as_ref().map(|worst| worst.norm);
+        let norm = |worst: &Option<Worst>| worst.as_ref().map(|worst| comparable(worst.norm));
         if norm(&other.worst) > norm(&self.worst) {
             self.worst = other.worst;
         }

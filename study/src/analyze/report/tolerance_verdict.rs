@@ -1,6 +1,8 @@
 //! Verdicts on the tolerances of a study.
 
-use abbe::analysis::{Budget, Compliance, ErrorDistribution, Extreme, Measurand, PROBABILITY_ERROR, Yield};
+use abbe::analysis::{
+    Budget, Compliance, ErrorDistribution, Extreme, Measurand, PROBABILITY_ERROR, Yield, comparable,
+};
 use serde::Serialize;
 
 use super::source_report::ErrorSites;
@@ -231,7 +233,7 @@ impl JudgedErrors {
             [radius.configuration].into_iter().chain(listed.filter(|index| *index != radius.configuration))
         {
             let error = distribution(index)?;
-            let [u95, deviations] = error.approximate(tolerance);
+            let [u95, deviations] = error.approximate(tolerance).map(comparable);
             // Where the integrals agree to their accuracy, the approximation decides.
             let within = (error.normal_within(tolerance) / PROBABILITY_ERROR).round();
             candidates.push(Candidate { within, deviations, u95, index, error });
@@ -239,7 +241,8 @@ impl JudgedErrors {
         // A stable sort: among equals the configuration with the largest radius stays first.
         candidates.sort_by(|a, b| a.within.total_cmp(&b.within).then(a.deviations.total_cmp(&b.deviations)));
         // The largest U95 need not be where the tolerance is least likely to be met.
-        let farthest = (0..candidates.len()).max_by(|i, j| candidates[*i].u95.total_cmp(&candidates[*j].u95));
+        let farthest =
+            (0..candidates.len()).rev().max_by(|i, j| candidates[*i].u95.total_cmp(&candidates[*j].u95));
         if let Some(farthest) = farthest.filter(|farthest| *farthest >= DRAWN) {
             let candidate = candidates.remove(farthest);
             candidates.insert(DRAWN - 1, candidate);
