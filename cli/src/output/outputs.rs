@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use abbe_study::Reads;
 use same_file::Handle;
 
-use super::pending::{PREFIX, Pending};
+use super::pending::{PREFIX, Pending, persist};
 use super::target::{Target, identity, is_stdout, parent};
 use super::{Printed, cannot_write, folders, note, record};
 use crate::{Result, failure::Failure};
@@ -58,9 +58,8 @@ impl Outputs {
     /// The path is a file, or a folder with files that abbe did not write.
     pub(crate) fn folder(&mut self, path: &Path) -> Result<()> {
         if is_stdout(path) || (path.exists() && !path.is_dir()) {
-            return Err(
-                Failure::new(path.display(), "this is a file, not a folder").help("--out takes a folder")
-            );
+            let failure = Failure::new(path.display(), "this is a file, not a folder");
+            return Err(failure.help("--out takes a folder"));
         }
         if path.is_dir() && !self.force && !record::is_in(path) {
             let mut others = fs::read_dir(path).map_err(|error| cannot_write(path, &error))?.flatten();
@@ -87,18 +86,15 @@ impl Outputs {
         }
         let Target::File(file) = target else { return Ok(()) };
         let Some(old) = fs::metadata(file).ok().filter(|_| !self.force) else { return Ok(()) };
-        let help = "choose another file, or use `--force` to replace this one";
-        if old.permissions().readonly() {
-            return Err(Failure::new(path.display(), "this file is read-only").help(help));
-        }
-        match record::is_ours(file) {
-            Ok(true) => Ok(()),
+        let failure = match record::is_ours(file) {
+            _ if old.permissions().readonly() => Failure::new(path.display(), "this file is read-only"),
+            Ok(true) => return Ok(()),
             Ok(false) => {
-                let message = "abbe did not write this file, or it was changed since";
-                Err(Failure::new(path.display(), message).help(help))
+                Failure::new(path.display(), "abbe did not write this file, or it was changed since")
             }
-            Err(error) => Err(cannot_write(path, &error).help(help)),
-        }
+            Err(error) => cannot_write(path, &error),
+        };
+        Err(failure.help("choose another file, or use `--force` to replace this one"))
     }
 
     /// Writes files with these texts, as [`finish`](Self::finish) does.
@@ -131,11 +127,9 @@ impl Outputs {
             complete.push((pending.path, file, temporary, hash));
         }
         // Recorded before they are moved: if the process is killed in between, the files are known.
-        let mut unknown = None;
-        for (_, file, _, hash) in &complete {
-            unknown = record::add(file, hash).err().map(|error| (file, error)).or(unknown);
-        }
-        if let Some((file, error)) = unknown {
+        let unknown =
+            complete.iter().filter_map(|(_, file, _, hash)| Some((file, record::add(file, hash).err()?)));
+        if let Some((file, error)) = unknown.reduce(|first, _| first) {
             let folder = parent(file).display();
             note(&format!(
                 "note: {folder}: cannot record which files were written ({error}); replacing them \
@@ -143,7 +137,7 @@ impl Outputs {
             ));
         }
         for (path, file, temporary, _) in complete {
-            temporary.persist(file).map_err(|error| cannot_write(&path, &error.error))?;
+            persist(temporary, &file).map_err(|error| cannot_write(&path, &error))?;
         }
         Ok(printed)
     }

@@ -3,6 +3,7 @@
 use std::fs::{self, File};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::{thread, time::Duration};
 
 use abbe_study::hash;
 use tempfile::{Builder, NamedTempFile, SpooledTempFile};
@@ -16,6 +17,9 @@ pub(super) const PREFIX: &str = ".abbe-";
 
 /// Largest content kept in memory, in bytes.
 const SMALL: usize = 1 << 20;
+
+/// Error of Windows for a file that another program has open.
+pub(super) const IN_USE: i32 = 32;
 
 /// File under construction.
 #[derive(Debug)]
@@ -107,4 +111,19 @@ fn temporary(file: &Path) -> io::Result<NamedTempFile> {
         let _ = new.as_file().set_permissions(old.permissions());
     }
     Ok(new)
+}
+
+/// Moves a complete file to its path. On Windows this fails while a program, perhaps another run, has
+/// the old file open: tries for a second.
+pub(super) fn persist(mut complete: NamedTempFile, file: &Path) -> io::Result<()> {
+    for _ in 0..40 {
+        let Err(failed) = complete.persist(file) else { return Ok(()) };
+        // 5: access denied.
+        if !(cfg!(windows) && matches!(failed.error.raw_os_error(), Some(5 | IN_USE))) {
+            return Err(failed.error);
+        }
+        complete = failed.file;
+        thread::sleep(Duration::from_millis(25));
+    }
+    Err(io::Error::from_raw_os_error(IN_USE))
 }

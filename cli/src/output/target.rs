@@ -86,10 +86,9 @@ fn new_file(path: &Path) -> Result<Target> {
         let failure = cannot_write(path, &error);
         if error.kind() == ErrorKind::NotFound { failure.help("create the folder first") } else { failure }
     })?;
-    match end.file_name() {
-        Some(name) => Ok(Target::File(folder.join(name))),
-        None => Err(Failure::new(path.display(), "this is not the path of a file")),
-    }
+    let name =
+        end.file_name().ok_or_else(|| Failure::new(path.display(), "this is not the path of a file"))?;
+    Ok(Target::File(folder.join(name)))
 }
 
 /// Returns the folder of a path: the current folder if the path names none.
