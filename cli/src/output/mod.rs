@@ -90,8 +90,7 @@ pub(crate) fn print_usage(usage: &clap::Error) -> Result<ExitCode> {
 
 /// Serializes a report as one line of JSON.
 pub(crate) fn json(value: &impl Serialize) -> Result<String> {
-    let text = serde_json::to_string(value).map_err(|error| Failure::new("JSON", error))?;
-    Ok(text + "\n")
+    serde_json::to_string(value).map(|text| text + "\n").map_err(|error| Failure::new("JSON", error))
 }
 
 /// Prints a message to stderr.
@@ -102,6 +101,9 @@ pub(crate) fn note(message: &str) {
 
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     let help = match error.kind() {
+        _ if cfg!(windows) && error.raw_os_error() == Some(pending::IN_USE) => {
+            "close the program that has it open, or choose another file"
+        }
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
             "choose another folder, or make this one writable"
         }

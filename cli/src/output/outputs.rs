@@ -92,6 +92,7 @@ impl Outputs {
             Ok(false) => {
                 Failure::new(path.display(), "abbe did not write this file, or it was changed since")
             }
+            Err(error) if cfg!(windows) => return Err(cannot_write(path, &error)),
             Err(error) => cannot_write(path, &error),
         };
         Err(failure.help("choose another file, or use `--force` to replace this one"))

@@ -42,7 +42,7 @@ impl Target {
         let names_folder = last.is_some_and(|byte| std::path::is_separator((*byte).into()));
         match fs::metadata(path) {
             Ok(found) if found.is_file() && !DESCRIPTORS.iter().any(|name| path.starts_with(name)) => {
-                if is_open_as_stdout(path) {
+                if Handle::stdout().is_ok_and(|open| identity(path) == Some(open)) {
                     Ok(Self::Stdout)
                 } else {
                     fs::canonicalize(path).map(Self::File).map_err(|error| cannot_write(path, &error))
@@ -100,9 +100,4 @@ pub(super) fn parent(path: &Path) -> &Path {
 pub(super) fn identity(path: &Path) -> Option<Handle> {
     fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
     Handle::from_path(path).ok()
-}
-
-/// Returns true if stdout is redirected to this file.
-fn is_open_as_stdout(file: &Path) -> bool {
-    Handle::stdout().is_ok_and(|open| identity(file) == Some(open))
 }

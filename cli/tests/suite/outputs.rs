@@ -271,6 +271,23 @@ fn runs_at_once_do_not_disturb_each_other() {
     }
 }
 
+/// Opens an output as a spreadsheet does: it shares reading, or nothing.
+#[test]
+#[cfg(windows)]
+fn what_another_program_has_open_is_named() {
+    use std::os::windows::fs::OpenOptionsExt;
+    let workshop = Workshop::new();
+    let out = workshop.path("out.csv");
+    let line = "simulate s.toml --map m.toml --samples 3 --out";
+    assert_eq!(run(&workshop, line, &out, &[]).status, 0);
+    for (shared, more) in [(1, &[][..]), (1, &["--force"]), (0, &[]), (0, &["--force"])] {
+        let open = fs::File::options().read(true).write(true).share_mode(shared).open(&out).unwrap();
+        refused(&run(&workshop, line, &out, more), "close the program that has it open");
+        drop(open);
+    }
+    assert_eq!(run(&workshop, line, &out, &[]).status, 0);
+}
+
 #[test]
 fn names_of_columns_come_back_whatever_they_are() {
     let workshop = Workshop::new();
