@@ -49,6 +49,10 @@ impl Target {
                 }
             }
             Ok(found) if !found.is_dir() => Ok(Self::Stream(path.to_owned())),
+            // Nothing about the null device of Windows can be read.
+            _ if cfg!(windows) && path.as_os_str().eq_ignore_ascii_case("nul") => {
+                Ok(Self::Stream(path.into()))
+            }
             Err(error) if error.kind() == ErrorKind::NotFound && !names_folder => new_file(path),
             Err(error) if error.kind() != ErrorKind::NotFound => Err(cannot_write(path, &error)),
             _ => {

@@ -230,6 +230,17 @@ fn what_is_no_file_is_written_through() {
     );
 }
 
+#[test]
+fn the_null_device_is_written_to() {
+    let workshop = Workshop::new();
+    let names: &[&str] = if cfg!(windows) { &["NUL", "nul"] } else { &["/dev/null"] };
+    for out in names {
+        let run = run(&workshop, "simulate s.toml --map m.toml --samples 3 --out", out, &[]);
+        assert_eq!(run.status, 0, "{}", run.stderr);
+    }
+    assert_eq!(contents(workshop.0.path()).len(), FILES.len(), "nothing else is there");
+}
+
 /// Simulates a full disk by a limit on the size of files.
 #[test]
 #[cfg(unix)]
