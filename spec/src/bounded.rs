@@ -7,7 +7,7 @@ use std::io::{self, Cursor, ErrorKind, Read};
 use std::path::Path;
 
 use crate::diagnostic::{Diagnostics, nearest_file};
-use crate::mistake;
+use crate::{mistake, option::OUT_FILE};
 
 /// Contents of files, by path.
 pub type Contents = BTreeMap<String, String>;
@@ -123,7 +123,7 @@ fn too_large(most: u64) -> UnreadableFile {
 
 /// Recognizes common file types that are not UTF-8 text by their first bytes.
 pub fn not_text(head: &[u8]) -> Option<UnreadableFile> {
-    const KINDS: [(&[u8], &str, &str); 10] = [
+    const KINDS: [(&[u8], &str, &str); 8] = [
         (b"\x1f\x8b", "is compressed by gzip", "unpack it: `gunzip FILE`"),
         (b"PK\x03\x04", "is a zip archive or a spreadsheet", "unpack it, or save the sheet as CSV"),
         (b"BZh", "is compressed by bzip2", "unpack it: `bunzip2 FILE`"),
@@ -132,19 +132,18 @@ pub fn not_text(head: &[u8]) -> Option<UnreadableFile> {
         (b"\xd0\xcf\x11\xe0", "is a spreadsheet or a document", "save it as text: a sheet as CSV"),
         (b"%PDF", "is a PDF", "give a text file"),
         (b"\x7fELF", "is a program", "give a text file"),
-        (b"\xff\xfe", "is text in UTF-16", "save it as UTF-8: `iconv -f UTF-16 -t UTF-8 FILE`"),
-        (b"\xfe\xff", "is text in UTF-16", "save it as UTF-8: `iconv -f UTF-16 -t UTF-8 FILE`"),
     ];
-    let known = KINDS.iter().find(|(begins, ..)| head.starts_with(begins));
-    let (what, help) = known.map(|(_, what, help)| (*what, *help)).or_else(|| {
-        // Every other byte of Latin letters in UTF-16 is 0.
-        let head = &head[..head.len().min(256)];
-        let zeros = |first: usize| head.iter().skip(first).step_by(2).filter(|byte| **byte == 0).count();
-        let is_utf_16 = zeros(0).min(zeros(1)) == 0 && 3 * zeros(0).max(zeros(1)) > head.len();
-        let help = "save it as UTF-8: `iconv -f UTF-16LE -t UTF-8 FILE`, or from UTF-16BE";
-        is_utf_16.then_some(("seems to be text in UTF-16", help))
-    })?;
-    Some(UnreadableFile::new(format!("this file {what}"), help))
+    if let Some((_, what, help)) = KINDS.iter().find(|(begins, ..)| head.starts_with(begins)) {
+        return Some(UnreadableFile::new(format!("this file {what}"), *help));
+    }
+    // A byte order mark, or every other byte is 0, as of Latin letters.
+    let start = &head[..head.len().min(256)];
+    let zeros = |first: usize| start.iter().skip(first).step_by(2).filter(|byte| **byte == 0).count();
+    let is_utf_16 = head.starts_with(b"\xff\xfe")
+        || head.starts_with(b"\xfe\xff")
+        || zeros(0).min(zeros(1)) == 0 && 3 * zeros(0).max(zeros(1)) > start.len();
+    let help = format!("save it as UTF-8, or write it with `{OUT_FILE}` instead of `>`");
+    is_utf_16.then(|| UnreadableFile::new("this file seems to be text in UTF-16", help))
 }
 
 #[cfg(test)]

@@ -157,6 +157,8 @@ impl Display for Command {
     }
 }
 
+/// Writes a file of abbe. With `>`, some shells write UTF-16.
+pub const OUT_FILE: Command = command("abbe … --out FILE", "abbe … --out FILE");
 /// Writes one part of an analysis.
 pub const SHARD: Command =
     command("abbe analyze SPEC --shard I/N --out FILE", "Machine.analyze(shard=(I, N)).save(FILE)");

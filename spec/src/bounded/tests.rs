@@ -13,6 +13,10 @@ fn what_is_no_text() {
     ] {
         assert!(not_text(head).unwrap().message.contains(word), "{word}");
     }
+    for marked in [&b"\xff\xfe-N"[..], b"\xfe\xffN-", &utf_16] {
+        let help = "save it as UTF-8, or write it with `abbe … --out FILE` instead of `>`";
+        assert_eq!(not_text(marked).unwrap().help, help);
+    }
     for text in ["", "a", "q1,q2\n1,2\n", "\u{feff}[data]", "größe = 1", "a\0b", "\0\0\0"] {
         assert_eq!(not_text(text.as_bytes()), None);
     }
