@@ -86,12 +86,11 @@ impl Outputs {
         }
         let Target::File(file) = target else { return Ok(()) };
         let Some(old) = fs::metadata(file).ok().filter(|_| !self.force) else { return Ok(()) };
+        let refused = |message| Failure::new(path.display(), message);
         let failure = match record::is_ours(file) {
-            _ if old.permissions().readonly() => Failure::new(path.display(), "this file is read-only"),
+            _ if old.permissions().readonly() => refused("this file is read-only"),
             Ok(true) => return Ok(()),
-            Ok(false) => {
-                Failure::new(path.display(), "abbe did not write this file, or it was changed since")
-            }
+            Ok(false) => refused("abbe did not write this file, or it was changed since"),
             Err(error) if cfg!(windows) => return Err(cannot_write(path, &error)),
             Err(error) => cannot_write(path, &error),
         };
@@ -123,9 +122,8 @@ impl Outputs {
         let mut complete = Vec::with_capacity(files.len());
         for mut pending in files {
             let Target::File(file) = pending.target.clone() else { continue };
-            let (temporary, hash) =
-                pending.complete(&file).map_err(|error| cannot_write(&pending.path, &error))?;
-            complete.push((pending.path, file, temporary, hash));
+            let (new, hash) = pending.complete(&file).map_err(|error| cannot_write(&pending.path, &error))?;
+            complete.push((pending.path, file, new, hash));
         }
         // Recorded before they are moved: if the process is killed in between, the files are known.
         let unknown =
@@ -137,8 +135,8 @@ impl Outputs {
                  will need --force"
             ));
         }
-        for (path, file, temporary, _) in complete {
-            persist(temporary, &file).map_err(|error| cannot_write(&path, &error))?;
+        for (path, file, new, _) in complete {
+            persist(new, &file).map_err(|error| cannot_write(&path, &error))?;
         }
         Ok(printed)
     }

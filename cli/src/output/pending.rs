@@ -118,8 +118,9 @@ fn temporary(file: &Path) -> io::Result<NamedTempFile> {
 pub(super) fn persist(mut complete: NamedTempFile, file: &Path) -> io::Result<()> {
     for _ in 0..40 {
         let Err(failed) = complete.persist(file) else { return Ok(()) };
-        // 5: access denied.
-        if !(cfg!(windows) && matches!(failed.error.raw_os_error(), Some(5 | IN_USE))) {
+        // 5: access denied, to a read-only file, too.
+        let may_be_open = cfg!(windows) && matches!(failed.error.raw_os_error(), Some(5 | IN_USE));
+        if !may_be_open || fs::metadata(file).is_ok_and(|old| old.permissions().readonly()) {
             return Err(failed.error);
         }
         complete = failed.file;

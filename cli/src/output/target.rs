@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, is_separator};
 
 use same_file::Handle;
 
@@ -38,8 +38,8 @@ impl Target {
         if is_stdout(path) {
             return Ok(Self::Stdout);
         }
-        let last = path.as_os_str().as_encoded_bytes().last();
-        let names_folder = last.is_some_and(|byte| std::path::is_separator((*byte).into()));
+        let name = path.as_os_str();
+        let names_folder = name.as_encoded_bytes().last().is_some_and(|byte| is_separator((*byte).into()));
         match fs::metadata(path) {
             Ok(found) if found.is_file() && !DESCRIPTORS.iter().any(|name| path.starts_with(name)) => {
                 if Handle::stdout().is_ok_and(|open| identity(path) == Some(open)) {
@@ -50,9 +50,7 @@ impl Target {
             }
             Ok(found) if !found.is_dir() => Ok(Self::Stream(path.to_owned())),
             // Nothing about the null device of Windows can be read.
-            _ if cfg!(windows) && path.as_os_str().eq_ignore_ascii_case("nul") => {
-                Ok(Self::Stream(path.into()))
-            }
+            _ if cfg!(windows) && name.eq_ignore_ascii_case("nul") => Ok(Self::Stream(path.to_owned())),
             Err(error) if error.kind() == ErrorKind::NotFound && !names_folder => new_file(path),
             Err(error) if error.kind() != ErrorKind::NotFound => Err(cannot_write(path, &error)),
             _ => {
