@@ -162,6 +162,20 @@ class Links(HTMLParser):
                 self.found.add(value)
 
 
+def generated(folder):
+    """Move pages of generated code to `generated` of their crate: rustdoc names them by the path of the build."""
+    folder = Path(folder)
+    for build in sorted((folder / "src").glob("*/**/build/*/out")):
+        crate, *path = build.relative_to(folder / "src").parts
+        build.rename(folder / "src" / crate / "generated")
+        shutil.rmtree(folder / "src" / crate / path[0])
+        for page in sorted(folder.rglob("*.html")):
+            text = page.read_text(encoding="utf-8").replace(f"/{'/'.join(path)}/", "/generated/")
+            if page.parent == folder / "src" / crate / "generated":
+                text = text.replace("../" * (len(path) + 2), "../" * 3)
+            write(page, text)
+
+
 def links(folder):
     """Copy what the book links to from the repository, write an index, and fail if a link leads nowhere."""
     folder = Path(folder).resolve()
@@ -217,6 +231,7 @@ def main():
         (sbom, ("package", "target", "file")),
         (pack, ("folder", "file")),
         (links, ("folder",)),
+        (generated, ("folder",)),
         (sums, ("folder",)),
     ]:
         command = commands.add_parser(function.__name__, help=function.__doc__)
