@@ -20,6 +20,8 @@ from urllib.parse import unquote
 
 ROOT = Path(__file__).resolve().parent.parent
 EPOCH = int(os.environ.get("SOURCE_DATE_EPOCH", "0"))
+# Of the headers and libraries for Windows, in Debian and its derivatives.
+MINGW = Path("/usr/share/doc/mingw-w64-x86-64-dev/copyright")
 LICENCE_FILE = re.compile(r"(?i)^(licen[cs]e|copying|copyright|notice|unlicense)")
 
 
@@ -65,6 +67,8 @@ def licences(package, target, file):
     lines = ["Crates that are compiled in, beside the standard library of Rust (MIT OR Apache-2.0)", ""]
     if target.endswith("-musl") and package == "abbe-cli":
         lines[0] += " and musl libc (MIT)"
+    if target.endswith("-windows-gnu"):
+        lines[0] += ",\nthe runtime of mingw-w64 (ZPL-2.1, MIT, BSD and public domain) and that of GCC (GPL-3.0 WITH GCC-exception-3.1)"
     width = max(len(one["name"]) for one in crates)
     texts = {}
     for one in crates:
@@ -75,9 +79,24 @@ def licences(package, target, file):
             if path.is_file() and LICENCE_FILE.match(path.name):
                 text = path.read_text(encoding="utf-8", errors="replace").replace("\r\n", "\n").strip()
                 texts.setdefault(text, []).append(f"{one['name']} {one['version']}")
+    if target.endswith("-windows-gnu"):
+        texts[mingw()] = ["runtime of mingw-w64"]
     for text, names in texts.items():
         lines += ["", "=" * 80, ", ".join(names), "=" * 80, "", text]
     write(file, "\n".join(lines) + "\n")
+
+
+def mingw():
+    """Return what the table of Debian says of the parts that are linked: the C runtime and the threads."""
+    kept, licences = [], set()
+    for paragraph in re.split(r"\n{2,}", MINGW.read_text(encoding="utf-8").strip()):
+        names = {name for line in re.findall(r"(?m)^License: (.*)", paragraph) for name in line.split(" and ")}
+        if re.match(r"Files: (\*|mingw-w64-crt/|mingw-w64-libraries/winpthreads/(?!tests))", paragraph):
+            licences |= names
+            kept.append(paragraph)
+        elif paragraph.startswith("License: ") and names <= licences:
+            kept.append(paragraph)
+    return "\n\n".join(kept)
 
 
 def sbom(package, target, file):
