@@ -1,7 +1,8 @@
-"""Builds wheels with maturin, and adds the commit to their version: 0.3.0.dev0+0123456789ab."""
+"""Builds wheels with maturin, and adds the commit to the version of those of no release: 0.4.0.dev0+0123456789ab."""
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -39,7 +40,7 @@ def _commit():
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    """Build a wheel whose version names the commit."""
+    """Build a wheel, whose version names the commit unless it is that of a release."""
     del metadata_directory  # Written anew, because the version changes.
     commit = _commit()
     if commit is None:
@@ -48,6 +49,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     os.environ["ABBE_COMMIT"] = commit
     with tempfile.TemporaryDirectory() as folder:
         built = Path(folder, maturin.build_wheel(folder, config_settings))
+        if ".dev" not in built.name and "modified" not in commit:
+            return Path(shutil.move(built, wheel_directory)).name
         return _renamed(built, commit.replace(" ", "."), wheel_directory)
 
 

@@ -1367,13 +1367,13 @@ class FunctionOperations(Fields):
     """Divisions."""
 
     sincos: int
-    """Sine–cosine pairs."""
+    """Sines, cosines, or both of one angle together."""
 
     sqrt: int
     """Square roots."""
 
     other: int
-    """Other operations."""
+    """Other functions."""
 
 
 class Gain(Fields):
@@ -3037,31 +3037,35 @@ class ResidualDrift(Fields):
     """Autocorrelation and drift of the residuals over time."""
 
     lag_1: float
-    """Lag-1 autocorrelation of the residuals."""
+    """Autocorrelation of the residuals of consecutive rows."""
 
     p_of_lag_1: float
-    """Probability of such an autocorrelation in a random row order."""
+    """Two-sided p-value of the autocorrelation, from random orders."""
 
     follows: str
-    """Quantity that follows time best: `x`, `y`, `z` or `distance`."""
+    """Component that correlates most with time: the error along `x`, `y` or `z`, or the `distance` between model and
+    measurement.
+    """
 
     settling: float | None
-    """Time constant of the settling as a share of the run; none for a linear drift."""
+    """Time constant of the best exponential, as a share of the duration; none for a straight line."""
 
     change: float
-    """Change of that quantity from the first row to the last, in the length unit."""
+    """Fitted change of the residuals from the first interval to the last, in the length unit: what the regressions on
+    the joints do not explain.
+    """
 
     p: float
-    """Probability of following time as well in a random row order."""
+    """p-value of the correlation, from random orders."""
+
+    ends: list[float]
+    """Mean distances of the first and of the last tenth of the rows."""
 
     is_drift: bool
     """Is true if `p` is at most the false-alarm rate."""
 
     false_alarms: float
     """False-alarm rate of the test."""
-
-    ends: list[float]
-    """Mean residual distance of the first tenth and of the last tenth of the rows, in the length unit."""
 
 
 class ResidualTest(Fields):

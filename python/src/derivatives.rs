@@ -1,7 +1,6 @@
 //! Derivatives by the structural parameters.
 
 use abbe::{Function, Manipulator};
-use abbe_study::mistake;
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 
 use crate::arrays::{empty, output_array};
@@ -54,11 +53,8 @@ impl Machine {
             let arguments = [q, &self.parameters, inputs.at(index, description.inputs.len())];
             let arguments = &arguments[..function.signature().arguments.len()];
             let found = guarded(|| Ok(self.interpreter.parameter_derivatives(function, arguments)))?;
-            let found = found.map_err(|error| {
-                let at = format!("configuration {index}");
-                let refused = mistake::not_evaluated(&self.machine.origin, &at, &error, description);
-                PyValueError::new_err(refused.list.into_iter().map(|one| one.message).collect::<String>())
-            })?;
+            let found =
+                found.map_err(|error| self.not_evaluated(&format!("configuration {index}"), &error))?;
             let found = found.ok_or_else(|| PyValueError::new_err("this function has no derivatives"))?;
             let places = written[length * index..].iter_mut();
             let rows = found

@@ -134,10 +134,16 @@ impl Machine {
         })?;
         done.map_err(|RejectedConfiguration { index, error }| {
             let at = index.map_or("this configuration".to_owned(), |index| format!("configuration {index}"));
-            let refused = mistake::not_evaluated(&self.machine.origin, &at, &error, description);
-            PyValueError::new_err(refused.list.into_iter().map(|one| one.message).collect::<String>())
+            self.not_evaluated(&at, &error)
         })?;
         Ok(array)
+    }
+
+    /// Creates the ValueError of a configuration that cannot be evaluated.
+    pub(crate) fn not_evaluated(&self, at: &str, error: &Error) -> PyErr {
+        let description = self.interpreter.description();
+        let refused = mistake::not_evaluated(&self.machine.origin, at, error, description);
+        PyValueError::new_err(refused.list.into_iter().map(|one| one.message).collect::<String>())
     }
 
     /// Returns the configurations of an array (…, nq), or of a table with columns of the joints.

@@ -20,9 +20,7 @@ pub struct Extreme {
 impl Extreme {
     /// Takes in the value at a configuration.
     pub fn add(&mut self, index: usize, value: f64) {
-        if self.configuration.is_none() {
-            *self = Self { value, configuration: Some(index) };
-        } else if comparable(value * value) > comparable(self.value * self.value) {
+        if self.configuration.is_none() || comparable(value * value) > comparable(self.value * self.value) {
             self.configuration = Some(index);
         }
         self.value = self.value.max(value);

@@ -34,7 +34,7 @@ pub struct Drift {
     pub change: f64,
     /// p-value of the correlation, from random orders.
     pub p: f64,
-    /// Mean distances of the first and of the last tenth of the rows.
+    /// Mean distances of the first and of the last tenth of the rows, in the length unit.
     pub ends: [f64; 2],
 }
 

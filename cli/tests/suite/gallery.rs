@@ -27,6 +27,22 @@ error comes from; many are assumptions.
 |---|---|---|---|---|
 ";
 
+const TAIL: &str = "
+## Your own
+
+A file beside your data needs no place here: `abbe analyze arm.toml` and `abbe identify arm.toml data.csv --map map.toml`
+take it. To add a machine to the shipped ones,
+
+1. write `manipulators/specs/NAME.toml`, with the `reference` of its lengths and of each source, and a line in
+   `manipulators/src/shipped.rs`. The tests hold it to every law, and write its section and pictures here
+   (`UPDATE_EXPECT=1 cargo test -p abbe-cli gallery`);
+2. if measurements of it are public, write `manipulators/maps/NAME.toml` for them, as for `ur5` and `wam`: its `reference`
+   says who measured, where the file is, at which version, and under which licence. The file itself stays where it is;
+3. identify it by one part of the data, and judge it by another: `abbe identify NAME fit.csv --map NAME --test other.csv`.
+   What is said of it, such as the two rows in the [README](../README.md), is compared with that by
+   `cli/tests/needs/measured_data.rs`, which is reported as ignored where the data are not.
+";
+
 #[test]
 fn the_page_shows_what_analyze_writes() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
@@ -66,5 +82,6 @@ fn the_page_shows_what_analyze_writes() {
         "\nR is a revolute joint, P a prismatic one, F a frame without a joint, from the base to the tool.\n",
     );
     page.push_str(&sections);
+    page.push_str(TAIL);
     expect_file![docs.join("gallery.md")].assert_eq(&page);
 }

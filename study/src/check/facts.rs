@@ -2,7 +2,7 @@
 
 use abbe::{Class, SumLimit};
 use abbe_codegen::chain::effects;
-use abbe_codegen::program::{Operations, Routines};
+use abbe_codegen::program::{Operations, Routine, Routines};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use serde::Serialize;
@@ -189,10 +189,7 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 fn operations(routines: &Routines) -> Vec<FunctionOperations> {
-    let counted = routines
-        .list
-        .iter()
-        .filter(|routine| routine.function.is_some())
-        .map(|routine| FunctionOperations { function: routine.name, operations: routine.operations });
-    counted.collect()
+    let functions = routines.list.iter().filter(|routine| routine.function.is_some());
+    let counted = |one: &Routine| FunctionOperations { function: one.name, operations: one.operations };
+    functions.map(counted).collect()
 }
