@@ -11,7 +11,7 @@ macro_rules! modules {
 
 /// All modules; each imports from earlier ones only.
 const MODULES: &[(&str, &str)] = &modules![
-    "number.js" "dom.js" "state.js" "command.js" "worst_case.js" "machine.js" "search.js" "worker.js" "controls.js" "sources.js" "residuals.js" "workspace.js"
+    "number.js" "dom.js" "state.js" "command.js" "worst_case.js" "machine.js" "search.js" "cheapest.js" "worker.js" "controls.js" "sources.js" "residuals.js" "workspace.js"
     "drag.js" "view.js" "charts.js" "tables.js" "pins.js" "linked.js" "save.js" "verdict.js" "panel.js" "main.js"
 ];
 

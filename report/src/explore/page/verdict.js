@@ -2,6 +2,7 @@
 
 import { button, html, setText, spans } from "./dom.js";
 import { decimals, digits, parseValue, percent, roundedDown, short } from "./number.js";
+import { cheapest } from "./cheapest.js";
 import { factorAt } from "./search.js";
 import { errorOf, times } from "./sources.js";
 import { lengthOf } from "./residuals.js";
@@ -31,14 +32,20 @@ export function createVerdict(panel) {
     const start = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
     const varied = [...report.inputs, ...report.parameters].filter(({ range }) => range?.[0] != null && range[1] != null).map(({ name }) => name);
     const show = button("Show", () => panel.load(worst()), { "aria-label": `Show the worst case in the ${over}` });
-    /** Scales all sources so that the tolerance is met over the study. */
+    /** Gives the sources other factors, rounded down to three digits. @param {number[]} factors */
+    const scale = (factors) => panel.go({ ...copyState(panel.state), factors: factors.map((one) => Number(roundedDown(one, decimals(one || 1, 3)))) });
     const meet = button("Meet it", () => {
         const factor = factorAt(panel.cloud?.[panel.measurand].radius ?? 0, panel.tolerances[panel.measurand] ?? Infinity);
-        const next = copyState(panel.state);
-        next.factors = next.factors.map((one) => Number(roundedDown(one * (factor ?? 1), decimals(factor ?? 1, 3))));
-        panel.go(next);
-    }, { hidden: true, "aria-label": "Meet it: scale all sources so that the study keeps the tolerance" });
-    const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, `Worst in the ${over}`), show, meet, studyText),
+        scale(panel.state.factors.map((one) => one * (factor ?? 1)));
+    }, { hidden: true, "aria-label": "Meet it: scale all sources alike so that the study keeps the tolerance" });
+    const cheap = button("At least cost", () => {
+        const { state, measurand, tolerances } = panel;
+        const factors = cheapest(panel.machine, report, state, measurand, tolerances[measurand] ?? Infinity);
+        if (factors) scale(factors);
+        else setText(studyText, "No factors keep the tolerance: the errors that have none exceed it.");
+    }, { hidden: true, title: "As abbe allocate does it: a factor x of a source costs 1/x and is at most 1, and smaller factors keep the tolerance, too",
+        "aria-label": "At least cost: scale each source so that the study keeps the tolerance" });
+    const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, `Worst in the ${over}`), show, meet, cheap, studyText),
         report.variables.length === 0 ? "" : html("div", {}, html("h2", {}, "Worst within the joint limits"), start, progress, boxText,
             varied.length > 0 ? html("label", {}, all, `vary ${varied.join(", ")} too`) : ""));
     const shareText = (/** @type {number} */ radius, limit = panel.tolerances[panel.measurand]) =>
@@ -112,7 +119,7 @@ export function createVerdict(panel) {
         setText(before, reference ? `before your changes ${errorText(panel, old, radius)}${change}` : "");
         if (searched !== key()) setText(boxText, "");
         const study = cloud?.[measurand];
-        meet.hidden = !study || limit === null || !isJudged || rows.length > 0 || study.radius <= limit;
+        meet.hidden = cheap.hidden = !study || limit === null || !isJudged || rows.length > 0 || study.radius <= limit;
         if (!study) return;
         const scaled = limit === null || !(study.radius > 0) ? "" : ` Tolerance met with all sources ${times(factorAt(study.radius, limit))}.`;
         const count = study.radii.filter((one) => limit !== null && one <= limit).length;
