@@ -35,6 +35,7 @@ mod paths;
 mod positioning;
 #[cfg(unix)]
 mod programs;
+#[cfg(unix)]
 mod progress;
 mod readme;
 mod report;
