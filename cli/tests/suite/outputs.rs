@@ -2,13 +2,18 @@
 //! at all.
 
 use std::fs;
+#[cfg(unix)]
 use std::path::Path;
 
+#[cfg(unix)]
 use rand::{RngExt, SeedableRng};
+#[cfg(unix)]
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::running::{Run, abbe, command, prints};
-use crate::workshop::{FILES, PATH, WRITING, Workshop, contents, in_folder};
+#[cfg(unix)]
+use crate::workshop::PATH;
+use crate::workshop::{FILES, WRITING, Workshop, contents, in_folder};
 
 fn run(workshop: &Workshop, line: &str, out: &str, more: &[&str]) -> Run {
     let mut words = workshop.words(line);

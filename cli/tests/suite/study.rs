@@ -1,11 +1,14 @@
 //! Studies: workspaces of every form, compensation, draws, threads, interruption.
 
+#[cfg(target_os = "linux")]
 use std::fs;
 
 use serde_json::Value;
 use tempfile::tempdir;
 
-use crate::running::{abbe, command, full, json, narrow, prints, write};
+#[cfg(target_os = "linux")]
+use crate::running::command;
+use crate::running::{abbe, full, json, narrow, prints, write};
 
 /// Runs a study of a manipulator with further arguments.
 fn study(manipulator: &str, text: &str, more: &[&str]) -> Value {
