@@ -113,8 +113,8 @@ fn temporary(file: &Path) -> io::Result<NamedTempFile> {
     Ok(new)
 }
 
-/// Moves a complete file to its path. On Windows this fails while a program, perhaps another run, has
-/// the old file open: tries for a second.
+/// Moves a complete file to its path. On Windows this fails while a program, perhaps another run,
+/// has the old file open: tries for a second.
 pub(super) fn persist(mut complete: NamedTempFile, file: &Path) -> io::Result<()> {
     for _ in 0..40 {
         let Err(failed) = complete.persist(file) else { return Ok(()) };
