@@ -3059,7 +3059,7 @@ class ResidualDrift(Fields):
     """p-value of the correlation, from random orders."""
 
     ends: list[float]
-    """Mean distances of the first and of the last tenth of the rows."""
+    """Mean distances of the first and of the last tenth of the rows, in the length unit."""
 
     is_drift: bool
     """Is true if `p` is at most the false-alarm rate."""

@@ -141,8 +141,7 @@ impl Machine {
 
     /// Creates the ValueError of a configuration that cannot be evaluated.
     pub(crate) fn not_evaluated(&self, at: &str, error: &Error) -> PyErr {
-        let description = self.interpreter.description();
-        let refused = mistake::not_evaluated(&self.machine.origin, at, error, description);
+        let refused = mistake::not_evaluated(&self.machine.origin, at, error, self.interpreter.description());
         PyValueError::new_err(refused.list.into_iter().map(|one| one.message).collect::<String>())
     }
 

@@ -1,41 +1,12 @@
 //! Combined errors of all sources over the workspace.
 
 use super::Ellipsoid;
+use super::extreme::{Extreme, comparable};
 use super::over_signs::OverSignsAccumulator;
-use super::peak::{self, Peak, comparable};
+use super::peak::{self, Peak};
 use super::sums::{SourceKinds, Sums};
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
-
-/// Largest value over the workspace, and the first configuration with a [`comparable`] one.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Extreme {
-    /// Value, in the length unit. 0 for an empty workspace.
-    pub value: f64,
-    /// Index of the configuration. `None` for an empty workspace.
-    pub configuration: Option<usize>,
-}
-
-impl Extreme {
-    /// Takes in the value at a configuration.
-    pub fn add(&mut self, index: usize, value: f64) {
-        if self.configuration.is_none() || comparable(value * value) > comparable(self.value * self.value) {
-            self.configuration = Some(index);
-        }
-        self.value = self.value.max(value);
-    }
-
-    /// Returns the root of the largest square.
-    pub(super) fn root(self) -> Self {
-        Self { value: self.value.max(0.0).sqrt(), ..self }
-    }
-
-    /// Takes in the largest value of the following configurations.
-    pub fn merge(&mut self, other: &Self) {
-        other.configuration.into_iter().for_each(|index| self.add(index, other.value));
-    }
-}
 
 /// Combined errors of all sources over the workspace.
 ///

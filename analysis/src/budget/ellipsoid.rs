@@ -1,6 +1,6 @@
 //! Covariance of the error of the tool point, and its 95 % ellipsoid.
 
-use super::comparable;
+use super::extreme::comparable;
 use crate::{Measurand, Principal};
 use abbe_core::{Distribution, Source};
 

@@ -1,8 +1,8 @@
 //! Configurations at which a tolerance is least likely to be met, and the one with the largest
 //! error at 95 %, by a fast approximation.
 
-use super::peak::{Peak, comparable};
-use super::{combined::Extreme, sums::Sums};
+use super::extreme::{Extreme, comparable};
+use super::{peak::Peak, sums::Sums};
 use crate::normal::ONE_SIDED_95;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};

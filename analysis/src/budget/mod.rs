@@ -8,6 +8,7 @@ mod budget_sweep;
 mod combined;
 mod ellipsoid;
 mod error_budget;
+mod extreme;
 mod least_likely;
 mod over_signs;
 mod partial_errors;
@@ -16,8 +17,8 @@ mod source_errors;
 mod sums;
 
 pub use budget_sweep::{BudgetSweep, Gap, PartialBudget, error_budget};
-pub use combined::{Combined, Extreme};
+pub use combined::Combined;
 pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use error_budget::{Budget, BudgetOptions, OrientationErrors, Watch};
-pub use peak::comparable;
+pub use extreme::{Extreme, comparable};
 pub use source_errors::{Figures, SourceErrors};

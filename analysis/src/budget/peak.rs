@@ -1,19 +1,8 @@
 //! Maximum per lane, with its place; of equal values, the first.
 
-use super::Extreme;
+use super::extreme::{Extreme, comparable};
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
-
-/// Rounds an error to 26 significant bits, by which those of two configurations are compared.
-///
-/// Errors that differ only by rounding, such as those of a machine that turns about its base, are
-/// equal then, and the first configuration counts as the worst on every processor. See Dekker, "A
-/// floating-point technique for extending the available precision" (1971), for the split.
-#[inline(always)]
-pub fn comparable<S: Scalar>(error: S) -> S {
-    let scaled = error * S::constant(134_217_729.0);
-    scaled - (scaled - error)
-}
 
 /// Largest value in every lane, and the place of the first configuration with a
 /// [`comparable`] one.

@@ -1,6 +1,6 @@
 //! Errors of a single source over the workspace, in three metrics.
 
-use super::Extreme;
+use super::extreme::Extreme;
 use super::peak::{self, Peak};
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};

@@ -1,8 +1,7 @@
 //! Verdicts on the tolerances of a study.
 
-use abbe::analysis::{
-    Budget, Compliance, ErrorDistribution, Extreme, Measurand, PROBABILITY_ERROR, Yield, comparable,
-};
+use abbe::analysis::{Budget, Compliance, ErrorDistribution, Extreme, Measurand};
+use abbe::analysis::{PROBABILITY_ERROR, Yield, comparable};
 use serde::Serialize;
 
 use super::source_report::ErrorSites;
