@@ -69,8 +69,8 @@ impl Machine {
                 if let Some(at) = given.values.slice()?.iter().position(|value| !value.is_finite()) {
                     let argument = &signature.arguments[2];
                     let (row, index) = (at / argument.len(description), at % argument.len(description));
-                    let of_each = !given.lead.is_empty();
-                    let at = of_each.then(|| format!("at configuration {row}: ")).unwrap_or_default();
+                    let at =
+                        given.lead.first().map(|_| format!("at configuration {row}: ")).unwrap_or_default();
                     let error = Error::NotFinite { quantity: argument.quantity, index };
                     return Err(PyValueError::new_err(at + &mistake::named(&error, description)));
                 }

@@ -40,7 +40,7 @@ function slopesOf(report, { vectors, norms }, factors) {
 }
 
 /** @param {number[]} a @param {number[]} b */
-const product = (a, b) => a.reduce((sum, value, k) => sum + value * b[k], 0);
+const dot = (a, b) => a.reduce((sum, value, k) => sum + value * b[k], 0);
 
 /**
  * Returns the factors of the sources that are switched on, and those of others as they are; `null` where the errors that have
@@ -62,9 +62,9 @@ export function cheapest(machine, report, state, measurand, tolerance) {
     const applied = (factors) => report.sources.map((_, k) => factorOf(report, { ...whole, factors }, k));
     /** Largest error at a row, or more if that is less than 1, and the slopes by each factor. @param {Row} row @param {number[]} all */
     const errorAt = (row, all) => {
-        const bound = product(row.norms, all);
+        const bound = dot(row.norms, all);
         const slopes = bound < 1 ? [] : slopesOf(report, row, all);
-        return { slopes, total: bound < 1 ? bound : product(slopes, all) };
+        return { slopes, total: bound < 1 ? bound : dot(slopes, all) };
     };
     const largest = (/** @type {number[]} */ all) => rows.map((row) => errorAt(row, all)).sort((a, b) => b.total - a.total);
     if (largest(applied(isFree.map(() => 0)))[0].total >= TARGET) return null;
@@ -100,7 +100,7 @@ function solved(cuts, before, isFree) {
         const factors = before.map((factor, k) => (isFree[k] ? 1 / Math.sqrt(Math.max(forces[k], 1)) : factor));
         let excess = 0;
         for (const cut of cuts) {
-            const total = product(cut.slopes, factors);
+            const total = dot(cut.slopes, factors);
             excess = Math.max(excess, total > 1 ? total - 1 : cut.multiplier * (1 - total));
             cut.multiplier *= total * total;
         }
