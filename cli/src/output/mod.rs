@@ -99,9 +99,12 @@ pub(crate) fn note(message: &str) {
     let _ = writeln!(stderr(), "{}", shown(visible(message).into_owned(), &stderr()));
 }
 
+/// Error of Windows for a file that another program has open.
+const IN_USE: i32 = 32;
+
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     let help = match error.kind() {
-        _ if cfg!(windows) && error.raw_os_error() == Some(pending::IN_USE) => {
+        _ if cfg!(windows) && error.raw_os_error() == Some(IN_USE) => {
             "close the program that has it open, or choose another file"
         }
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {

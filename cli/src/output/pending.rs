@@ -9,7 +9,7 @@ use abbe_study::hash;
 use tempfile::{Builder, NamedTempFile, SpooledTempFile};
 
 use super::target::{Target, parent};
-use super::{cannot_write, folders, print};
+use super::{IN_USE, cannot_write, folders, print};
 use crate::Result;
 
 /// Prefix of the names of abbe's own files.
@@ -17,9 +17,6 @@ pub(super) const PREFIX: &str = ".abbe-";
 
 /// Largest content kept in memory, in bytes.
 const SMALL: usize = 1 << 20;
-
-/// Error of Windows for a file that another program has open.
-pub(super) const IN_USE: i32 = 32;
 
 /// File under construction.
 #[derive(Debug)]
