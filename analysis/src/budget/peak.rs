@@ -38,10 +38,11 @@ impl<R: Register> Peak<R> {
         let best = lanes.fold((f64::NEG_INFINITY, -1.0), |best, (&value, &place)| {
             if best.0 > value || best.0 == value && best.1 < place { best } else { (value, place) }
         });
-        if best.1 < 0.0 {
-            return Extreme::default();
+        // Squares beyond 1e300 are not compared: the largest counts, at the first place.
+        match largest(self.value) {
+            f64::NEG_INFINITY => Extreme::default(),
+            value => Extreme { value, configuration: Some(index(best.1.max(0.0) as usize)) },
         }
-        Extreme { value: largest(self.value), configuration: Some(index(best.1 as usize)) }
     }
 }
 

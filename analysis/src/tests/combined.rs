@@ -117,3 +117,18 @@ fn both_figures_are_proportional_to_the_errors() {
     let together = TOLERANCE / budget.combined.radius.value;
     assert!((largest(&rows, &[together; 7]) - TOLERANCE).abs() < 1e-12);
 }
+
+/// Errors whose squares are too large to be compared are no errors of 0.
+#[test]
+fn the_largest_error_is_kept_however_large_it_is() {
+    for first in [1e-3, 1e152] {
+        let mut largest = Extreme { value: first, configuration: Some(0) };
+        for (index, value) in [1e-9, 1e152, 3.0].into_iter().enumerate() {
+            largest.merge(&Extreme { value, configuration: Some(1 + index) });
+        }
+        assert_eq!(largest.value, 1e152, "{first}");
+    }
+    let mut none = Extreme::default();
+    none.add(7, 1e200);
+    assert_eq!(none, Extreme { value: 1e200, configuration: Some(7) });
+}

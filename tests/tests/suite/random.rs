@@ -236,3 +236,17 @@ fn of_equally_bad_configurations_the_first_is_named() {
         }
     }
 }
+
+/// An error that is too large to be compared with others is not 0.
+#[test]
+fn absurd_errors_are_not_lost() {
+    let spec = arm(
+        "[[source]]\nname = \"absurd\"\nclass = \"repeatable\"\nframe = \"elbow\"\ne_x = \"1e76 mm * (2 + cos(q1)) * 1e76\"\n",
+    );
+    let robot = Interpreter::new(spec);
+    let workspace = joint_samples(&robot, &[0, 1], 500).unwrap();
+    let budget = error_budget(&robot, &workspace, BudgetOptions::default(), &mut ()).unwrap();
+    for largest in [budget.sources[0].plain_max.norm, budget.combined.radius.value] {
+        assert!((2e152..=3.1e152).contains(&largest), "{largest}");
+    }
+}
